@@ -368,7 +368,9 @@ std::vector<Table> main_tables() {
               "sign test, corrected in its family (Benjamini and Hochberg)"},
              {"floor", &Comparison::floor, "", "noise floor, relative"},
              {"delta", &Comparison::delta, "", "the verdict is same within this, relative"},
-             {"family", &Comparison::family, "", "peers, ours, threads, stages or devices"},
+             {"family", &Comparison::family, "",
+              "peers, ours, threads, stages, devices or errors (against ourselves without an "
+              "error)"},
              {"verdict", &Comparison::verdict, "",
               "b is faster, slower, same, cannot_tell or wrong"},
              {"reason", &Comparison::reason, "",

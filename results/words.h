@@ -45,12 +45,14 @@ enum class Reason : std::uint8_t {
     memory_layout ///< it flips with the size of the environment, by which memory is laid out
 };
 /// Which claims were corrected together; analysis/comparisons.h says how each is formed.
-enum class Family : std::uint8_t { none, peers, ours, threads, stages, devices };
+enum class Family : std::uint8_t { none, peers, ours, threads, stages, devices, errors };
 /// What a row of findings is about.
 enum class Topic : std::uint8_t { none, race, call, kernel, scene, device };
 
 /// Of Variant::stages; any other word is the effect that the scene is played without.
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
+/// Of Variant::name of a contender whose answers may err: before the error, at the end.
+inline constexpr std::string_view error_mark = ".within_";
 /// Of Cell::executor on a device: from the host's boxes to the host's answers; all stays there; so,
 /// and started by one launch.
 inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident",
@@ -81,8 +83,8 @@ template <> struct Words<Reason> {
         "unchecked", "too_noisy",      "memory_layout"};
 };
 template <> struct Words<Family> {
-    static constexpr std::array<std::string_view, 6> all{"",        "peers",  "ours",
-                                                         "threads", "stages", "devices"};
+    static constexpr std::array<std::string_view, 7> all{"",       "peers",   "ours",  "threads",
+                                                         "stages", "devices", "errors"};
 };
 template <> struct Words<Topic> {
     static constexpr std::array<std::string_view, 6> all{"",       "race",  "call",

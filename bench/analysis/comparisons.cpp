@@ -278,6 +278,30 @@ void against_processors(const Index& index, const Times& times, Judge& judge) {
     judge.close(Family::devices);
 }
 
+/// What may err against the same without an error.
+void against_exact(const Index& index, const Times& times, Judge& judge) {
+    using Alike =
+        std::tuple<JobKey, std::string, std::string, std::string>; // executor, precision, name
+    const auto alike = [&](const Cell& cell) {
+        const std::string& name = index.variant(cell).name;
+        return Alike{job_of(cell), cell.executor, cell.precision,
+                     name.substr(0, name.find(results::error_mark))};
+    };
+    const auto may_err = [&](const Cell& cell) {
+        return index.variant(cell).name.find(results::error_mark) != std::string::npos;
+    };
+    std::map<Alike, const Cell*> exact;
+    for (const Cell& cell : index.results().cells)
+        if (!index.is_peer(cell) && !may_err(cell))
+            exact[alike(cell)] = &cell;
+    Grouped<Alike> claims;
+    for (const Cell& cell : index.results().cells)
+        if (!index.is_peer(cell) && may_err(cell))
+            if (const auto base = exact.find(alike(cell)); base != exact.end())
+                claims.add(alike(cell), index, times, *base->second, cell);
+    claims.judge(judge, Family::errors);
+}
+
 } // namespace
 
 const Cell* reference_of(const Index& index, const Cell& judged) {
@@ -383,6 +407,7 @@ std::vector<Comparison> comparisons_of(const Results& results, const Times& time
     against_one_thread(index, times, judge);
     against_fewer_stages(index, times, judge);
     against_processors(index, times, judge);
+    against_exact(index, times, judge);
     return judge.take();
 }
 

@@ -270,6 +270,30 @@ TEST(CompareFamilies, OursThreadsAndStages) {
     EXPECT_EQ(reference_of(Index(run.results), run.results.cells[hilbert]), nullptr); // itself
 }
 
+TEST(CompareFamilies, AnErrorIsHeldAgainstNone) {
+    RunForTest run;
+    const auto exact = run.cell("bunny", 100, "distance", "mine.obb.distance"),
+               warm = run.cell("bunny", 100, "distance", "mine.obb.distance.warm"),
+               within = run.cell("bunny", 100, "distance", "mine.obb.distance.within_0.1"),
+               warm_within =
+                   run.cell("bunny", 100, "distance", "mine.obb.distance.warm.within_0.1"),
+               alone = run.cell("bunny", 100, "distance", "other.obb.distance.within_0.1"),
+               two = run.cell("bunny", 100, "distance", "mine.obb.distance.within_0.1", 2);
+    for (const auto& [cell, ns] : {std::pair{exact, 100.},
+                                   {warm, 50.},
+                                   {within, 20.},
+                                   {warm_within, 40.},
+                                   {alone, 10.},
+                                   {two, 10.}})
+        run.time(cell, Phase::query, ns);
+    set_statuses(run.results);
+    std::vector<Comparison> rows = comparisons_of(run.results, Times(run.results), default_delta);
+    std::erase_if(rows, [](const Comparison& row) { return row.family != Family::errors; });
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_NEAR(row_of(rows, exact, within, Phase::query).ratio, .2, 1e-12);
+    EXPECT_NEAR(row_of(rows, warm, warm_within, Phase::query).ratio, .8, 1e-12);
+}
+
 TEST(CompareFamilies, AReferenceRunsOnAsManyThreads) {
     RunForTest run;
     const auto one = run.cell("uniform", 1000, "pairs", "hilbert.wide8"),

@@ -10,4 +10,7 @@ namespace boxwood::bench {
 std::vector<ReplayEntry> fcl_replays();
 std::vector<ReplayEntry> fcl_shape_replays(); ///< with the narrow phase
 
+/// FCL's trees of floats crash on a half-space among many.
+bool is_stood_by_floats(const RecordedProgram& program);
+
 } // namespace boxwood::bench

@@ -1,5 +1,6 @@
 #include "bench/replay/replay.h"
 
+#include "bench/replay/shape_truth.h"
 #include "bench/tasks/contender.h"
 
 #include <algorithm>
@@ -89,6 +90,7 @@ class Rounds {
             outcome.summary = entry.summary;
             outcome.is_ours = entry.library == "boxwood";
             outcome.has_shapes = entry.has_shapes;
+            outcome.in_floats = entry.in_floats;
             outcome.per_ns.resize(recording::call_names.size());
         }
         order_.resize(replays_.size());
@@ -132,10 +134,11 @@ class Rounds {
     std::mt19937_64 random_{1};
 };
 
-/// Each with the answers of the first of the report that has shapes.
-void compare_shapes(const RecordedProgram& program,
-                    const std::vector<std::pair<std::string, std::vector<ReplayedCall>>>& answers,
-                    ReplayReport& report) {
+/// Each with the truth, and where it is not known with the answers of the first of the report that
+/// has shapes.
+void judge_shapes(const RecordedProgram& program, const ShapeTruth& truth,
+                  const std::vector<std::pair<std::string, std::vector<ReplayedCall>>>& answers,
+                  ReplayReport& report) {
     const auto of = [&](const ReplayOutcome& outcome) {
         return std::ranges::find(answers, outcome.name,
                                  &std::pair<std::string, std::vector<ReplayedCall>>::first);
@@ -145,11 +148,21 @@ void compare_shapes(const RecordedProgram& program,
         const auto base = of(*first), own = of(*outcome);
         if (base == answers.end() || own == answers.end())
             return; // no round is complete
-        for (std::size_t i = 0; i < program.calls.size(); ++i)
-            if (is_query(program.calls[i].what) &&
-                !is_same_with_shapes(program.calls[i], own->second[i], base->second[i]) &&
-                ++outcome->wrong == 1)
+        for (std::size_t i = 0; i < program.calls.size(); ++i) {
+            if (!is_query(program.calls[i].what))
+                continue;
+            if (!truth.is_checked(i)) {
+                if (!is_same_with_shapes(program.calls[i], own->second[i], base->second[i]) &&
+                    ++outcome->differ == 1)
+                    outcome->first_differs = i;
+                continue;
+            }
+            std::string fault = truth.fault(i, own->second[i], outcome->in_floats);
+            if (!fault.empty() && ++outcome->wrong == 1) {
                 outcome->first_wrong = i;
+                outcome->witness = std::move(fault);
+            }
+        }
     }
 }
 
@@ -177,6 +190,11 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
     }
     std::vector<std::pair<std::string, std::vector<ReplayedCall>>> by_shapes;
     Rounds all(program, entries, report);
+    const bool has_shapes = std::ranges::any_of(report.outcomes, &ReplayOutcome::has_shapes);
+    const ShapeTruth shapes(program, has_shapes ? max_tests : 0, [&] {
+        return goes_on("testing triangles, for the truth with shapes");
+    });
+    report.n_shapes_checked = shapes.n_checked();
     for (unsigned round = 0; round < rounds; ++round) {
         const auto check = [&](ReplayOutcome& outcome, const std::vector<ReplayedCall>& calls) {
             if (round == 0 && outcome.has_shapes) {
@@ -195,7 +213,7 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
     std::ranges::stable_sort(report.outcomes, {}, [](const ReplayOutcome& outcome) {
         return std::pair(outcome.has_shapes, !outcome.is_ours);
     });
-    compare_shapes(program, by_shapes, report);
+    judge_shapes(program, shapes, by_shapes, report);
     return report;
 }
 

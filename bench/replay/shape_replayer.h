@@ -69,8 +69,7 @@ template <class Library> class ShapeReplayer final : public Replay {
         bool add(Object* a, Object* b) {
             if (a == b || !Library::touch(a, b, touch))
                 return false;
-            ++to.shown;
-            to.keys = recording::sum(to.keys, recording::key(number(a), number(b)));
+            note_touching(to, number(a), number(b));
             return ends;
         }
         bool add(Object* a, Object* b, Number& least) {
@@ -89,12 +88,13 @@ template <class Library> class ShapeReplayer final : public Replay {
 
     void move(const RecordedProgram::State& state) {
         Object& object = *objects_[state.object];
+        const auto number = [&](std::size_t i) { return static_cast<Number>(state.pose[i]); };
         typename Library::Rotation rotation;
         for (int row = 0; row < 3; ++row)
             for (int column = 0; column < 3; ++column)
-                rotation(row, column) = state.pose[static_cast<std::size_t>(3 * row + column)];
-        object.setTransform(
-            rotation, typename Library::Translation(state.pose[9], state.pose[10], state.pose[11]));
+                rotation(row, column) = number(static_cast<std::size_t>(3 * row + column));
+        object.setTransform(rotation,
+                            typename Library::Translation(number(9), number(10), number(11)));
         object.computeAABB();
     }
 

@@ -121,8 +121,7 @@ class WorldReplay final : public Replay {
     void note(ReplayedCall& to, std::uint32_t a, std::uint32_t b) const {
         if (touch_.contacts)
             world_.contacts(a, b, {.max_contacts = touch_.max_contacts});
-        ++to.shown;
-        to.keys = recording::sum(to.keys, recording::key(object_of_[a], object_of_[b]));
+        note_touching(to, object_of_[a], object_of_[b]);
     }
 
     void answer(const RecordedProgram::Call& call, ReplayedCall& to) {

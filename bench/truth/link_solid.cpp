@@ -1,5 +1,8 @@
 #include "bench/truth/link_solid.h"
 
+#include "kernels/oracle/oracle.h"
+#include "kernels/primitives/rotation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -122,7 +125,83 @@ struct SolidOf {
     }
 };
 
+PosedTriangles placed(const PosedTriangles& triangles, const RigidTransform<double>& pose) {
+    PosedTriangles all;
+    all.reserve(triangles.size());
+    for (const Triangle<double>& t : triangles)
+        all.push_back({pose(t.a), pose(t.b), pose(t.c)});
+    return all;
+}
+
+double norm1(Vec3<double> v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+/// Whether all of t is on one side of the plane of s, beyond what rounding may be off by: 2^-46 of
+/// the product of the lengths is more than its ten roundings.
+bool is_on_one_side(const Triangle<double>& s, const Triangle<double>& t) {
+    const Vec3<double> u = s.b - s.a, v = s.c - s.a, normal = cross(u, v);
+    int above = 0, below = 0;
+    for (const Vec3<double> p : {t.a, t.b, t.c}) {
+        const Vec3<double> w = p - s.a;
+        const double height = dot(normal, w), off = 0x1p-46 * norm1(u) * norm1(v) * norm1(w);
+        above += height > off && off > 0x1p-900;
+        below += height < -off && off > 0x1p-900;
+    }
+    return above == 3 || below == 3;
+}
+
+/// Those that doubles do not tell apart, rationals do.
+bool surfaces_touch(const PosedTriangles& a, const PosedTriangles& b, const Aabb<double>& box_b) {
+    for (const Triangle<double>& s : a) {
+        const Aabb<double> box = s.bounds();
+        if (!overlaps(box, box_b))
+            continue;
+        for (const Triangle<double>& t : b)
+            if (overlaps(box, t.bounds()) && !is_on_one_side(s, t) && !is_on_one_side(t, s) &&
+                oracle::intersect(s, t))
+                return true;
+    }
+    return false;
+}
+
+/// Whether `holds` is true of a corner, in the frame of the solid.
+template <class Holds>
+bool any_corner(const PosedTriangles& triangles, const PlacedSolid& of, Holds holds) {
+    if (!of.solid->level)
+        return false;
+    const auto& [r0, r1, r2] = of.pose.rotation;
+    const auto held = [&](Vec3<double> p) {
+        const Vec3<double> apart = p - of.pose.translation;
+        return holds(apart.x * r0 + apart.y * r1 + apart.z * r2);
+    };
+    return std::ranges::any_of(
+        triangles, [&](const Triangle<double>& t) { return held(t.a) || held(t.b) || held(t.c); });
+}
+
 } // namespace
+
+PlacedSolid::PlacedSolid(const LinkSolid& of, const RigidTransform<double>& link)
+    : solid(&of), pose(compose(link, of.origin)), inner(placed(of.inner, pose)),
+      outer(placed(of.outer, pose)) {
+    for (const PosedTriangles* side : {&inner, &outer})
+        for (const Triangle<double>& t : *side)
+            box.extend(t.bounds());
+}
+
+bool surely_touch(const PlacedSolid& a, const PlacedSolid& b) {
+    const auto in = [](const PlacedSolid& solid) {
+        return [&](Vec3<double> p) { return solid.solid->contains(p); };
+    };
+    return any_corner(b.inner, a, in(a)) || any_corner(a.inner, b, in(b)) ||
+           surfaces_touch(a.inner, b.inner, b.box);
+}
+
+bool may_touch(const PlacedSolid& a, const PlacedSolid& b) {
+    const auto in = [](const PlacedSolid& solid) {
+        return [&](Vec3<double> p) { return solid.solid->may_contain(p); };
+    };
+    return any_corner(b.outer, a, in(a)) || any_corner(a.outer, b, in(b)) ||
+           surfaces_touch(a.outer, b.outer, b.box);
+}
 
 LinkSolid link_solid(const LinkGeometry& geometry, const std::vector<TriangleMesh>& meshes) {
     LinkSolid solid = std::visit(SolidOf{meshes}, geometry.shape);

@@ -2,6 +2,7 @@
 
 #include "bench/truth/posed_triangles.h"
 #include "kernels/kinematics/robot_description.h"
+#include "kernels/primitives/aabb.h"
 
 #include <functional>
 #include <vector>
@@ -25,5 +26,19 @@ struct LinkSolid {
 };
 
 LinkSolid link_solid(const LinkGeometry& geometry, const std::vector<TriangleMesh>& meshes);
+
+/// A shape where its link is. The solid must outlive it.
+struct PlacedSolid {
+    PlacedSolid(const LinkSolid& of, const RigidTransform<double>& link);
+
+    const LinkSolid* solid;
+    RigidTransform<double> pose;
+    PosedTriangles inner, outer;
+    Aabb<double> box; ///< of both
+};
+
+/// By rational arithmetic on triangles that are posed in doubles. What is between is not known.
+bool surely_touch(const PlacedSolid& a, const PlacedSolid& b);
+bool may_touch(const PlacedSolid& a, const PlacedSolid& b);
 
 } // namespace boxwood::bench

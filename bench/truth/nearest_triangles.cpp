@@ -95,7 +95,8 @@ void NearestTriangles::fit() {
 /// what lies behind is far apart, also where boxes are near.
 class NearestTriangles::Search {
   public:
-    Search(const NearestTriangles& a, const NearestTriangles& b) : a_(a), b_(b) {
+    Search(const NearestTriangles& a, const NearestTriangles& b, double at_most)
+        : a_(a), b_(b), least_(at_most) {
         const double size = std::max(size_of(a.nodes_[0].box), size_of(b.nodes_[0].box));
         rounding_ = 0x1p-46 * size;
     }
@@ -175,13 +176,13 @@ class NearestTriangles::Search {
     const NearestTriangles &a_, &b_;
     double rounding_;          ///< of a gap along a direction
     Vec3<double> direction_{}; ///< shorter than 1, so that a gap along it is a bound
-    double least_ = infinity, skipped_ = infinity;
+    double least_, skipped_ = infinity;
 };
 
-NearestTriangles::Least NearestTriangles::to(const NearestTriangles& other) const {
+NearestTriangles::Least NearestTriangles::to(const NearestTriangles& other, double at_most) const {
     if (order_.empty() || other.order_.empty())
-        return {infinity, infinity};
-    return Search(*this, other).run();
+        return {at_most, at_most};
+    return Search(*this, other, at_most).run();
 }
 
 } // namespace boxwood::bench

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,8 +24,10 @@ class NearestTriangles {
         double distance; ///< rounded from the exact one of some pair
         double lo;       ///< none is nearer
     };
-    /// Infinite if a set is empty; lo is at least distance (1 - 2^-40).
-    Least to(const NearestTriangles& other) const;
+    /// Infinite if a set is empty; lo is at least distance (1 - 2^-40). If they are farther apart
+    /// than at_most, it is that.
+    Least to(const NearestTriangles& other,
+             double at_most = std::numeric_limits<double>::infinity()) const;
 
   private:
     class Search;

@@ -2,8 +2,6 @@
 
 #include "bench/truth/link_solid.h"
 #include "kernels/kinematics/kinematic_tree.h"
-#include "kernels/oracle/oracle.h"
-#include "kernels/primitives/rotation.h"
 #include "scenes/robots/robot_scene.h"
 #include "trees/executor.h"
 
@@ -17,70 +15,6 @@
 
 namespace boxwood::bench {
 namespace {
-
-/// A shape where its link is.
-struct PlacedSolid {
-    const LinkSolid* solid;
-    RigidTransform<double> pose;
-    PosedTriangles inner, outer;
-    Aabb<double> box; ///< of `outer`
-
-    Vec3<double> in_own_frame(Vec3<double> p) const {
-        const auto& [r0, r1, r2] = pose.rotation;
-        const Vec3<double> apart = p - pose.translation;
-        return apart.x * r0 + apart.y * r1 + apart.z * r2;
-    }
-};
-
-PosedTriangles placed(const PosedTriangles& triangles, const RigidTransform<double>& pose) {
-    PosedTriangles all;
-    all.reserve(triangles.size());
-    for (const Triangle<double>& t : triangles)
-        all.push_back({pose(t.a), pose(t.b), pose(t.c)});
-    return all;
-}
-
-PlacedSolid placed(const LinkSolid& solid, const RigidTransform<double>& link) {
-    const RigidTransform<double> pose = compose(link, solid.origin);
-    PlacedSolid at{&solid, pose, placed(solid.inner, pose), placed(solid.outer, pose), {}};
-    for (const Triangle<double>& t : at.outer)
-        at.box.extend(t.bounds());
-    return at;
-}
-
-bool surfaces_touch(const PosedTriangles& a, const PosedTriangles& b, const Aabb<double>& box_b) {
-    for (const Triangle<double>& s : a) {
-        if (!overlaps(s.bounds(), box_b))
-            continue;
-        for (const Triangle<double>& t : b)
-            if (overlaps(s.bounds(), t.bounds()) && oracle::intersect(s, t))
-                return true;
-    }
-    return false;
-}
-
-template <class Contains> bool any_corner(const PosedTriangles& triangles, Contains contains) {
-    return std::ranges::any_of(triangles, [&](const Triangle<double>& t) {
-        return contains(t.a) || contains(t.b) || contains(t.c);
-    });
-}
-
-bool surely_touch(const PlacedSolid& a, const PlacedSolid& b) {
-    const auto within = [](const PlacedSolid& solid) {
-        return [&solid](Vec3<double> p) { return solid.solid->contains(solid.in_own_frame(p)); };
-    };
-    return surfaces_touch(a.inner, b.inner, b.box) || any_corner(b.inner, within(a)) ||
-           any_corner(a.inner, within(b));
-}
-
-/// No less than all that do.
-bool may_touch(const PlacedSolid& a, const PlacedSolid& b) {
-    const auto within = [](const PlacedSolid& solid) {
-        return [&solid](Vec3<double> p) { return solid.solid->may_contain(solid.in_own_frame(p)); };
-    };
-    return surfaces_touch(a.outer, b.outer, b.box) || any_corner(b.outer, within(a)) ||
-           any_corner(a.outer, within(b));
-}
 
 /// What may be said of a state.
 struct StateTruth {
@@ -164,7 +98,7 @@ class RobotTruth final : public Truth {
         std::vector<std::vector<PlacedSolid>> links(shapes_.size());
         for (std::size_t i = 0; i < links.size(); ++i)
             for (const LinkSolid& shape : shapes_[i])
-                links[i].push_back(placed(shape, poses[i]));
+                links[i].emplace_back(shape, poses[i]);
         StateTruth truth;
         for (const Pair p : pairs_)
             for (const PlacedSolid& a : links[p.a])

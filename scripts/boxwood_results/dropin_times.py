@@ -15,7 +15,7 @@ from boxwood.results.words import interval_text, time_text
 # What stands in the place of a library's managers, whose names begin with the library's.
 OURS = {"fcl": "boxwood.fcl_manager", "coal": "boxwood.coal_manager"}
 WORLD = "boxwood.world"  # with a narrow phase of its own
-WITH_FCL = "boxwood.fcl_manager, FCL's shapes"  # with FCL's
+WITH_SHAPES = {"fcl": "boxwood.fcl_manager, FCL's shapes", "coal": "boxwood.coal_manager, Coal's shapes"}  # with theirs
 MIN_ROUNDS = 9  # that an interval takes
 NEAR = 1e-6  # of the program's own ratio and that of its samples
 
@@ -31,6 +31,8 @@ class Run:
     managers: list  # as `boxwood replay --json` has them, of bounds alone or of shapes, the first of them ours
     triangles: int = 0  # of each body
     distances: int = 0  # that are asked for in a frame
+    queries: int = 0
+    checked: int = 0  # of them, against the truth
 
     def ours(self, library):
         return WORLD if self.triangles else OURS.get(library, "")
@@ -44,11 +46,13 @@ class Run:
         return median_interval([theirs / own for theirs, own in zip(self.times(manager), self.times(ours))])
 
     def fastest(self):
-        """{library: (its manager that takes the least of those that answer rightly, (median, lo, hi) of its time over ours)}."""
+        """{library: (its manager that takes the least of those that answer rightly, (median, lo, hi) of its time over ours)}.
+
+        Where the truth was not known, rightly is as ours does."""
         found = {}
         for row in self.managers:
             library = row["manager"].split(".")[0]
-            if library in OURS and self.times(self.ours(library)) and not row["wrong"]:
+            if library in OURS and self.times(self.ours(library)) and not row["wrong"] and not row.get("differ"):
                 over = self.over(row["manager"], self.ours(library))
                 if library not in found or over < found[library][1]:
                     found[library] = row["manager"], over
@@ -65,6 +69,10 @@ class Run:
             if not math.isclose(statistics.median(ns / own for ns, own in zip(times, first)), row["over_first"]["mid"], rel_tol=NEAR):
                 return f"{row['manager']}: its ratio does not follow from its rounds"
         return "" if self.times(self.ours("fcl")) else f"{self.ours('fcl')} is missing"
+
+    def wrong_of(self, library):
+        """How many answers of the best of a library's managers are wrong; 0 if it has none here."""
+        return min((row["wrong"] + row.get("differ", 0) for row in self.managers if row["manager"].split(".")[0] == library), default=0)
 
 
 @dataclass(frozen=True)
@@ -120,14 +128,22 @@ def table(times):
     return rows
 
 
+def rival_text(run, library):
+    """Its fastest manager and shapes over ours, or how many of its answers are wrong."""
+    fastest = run.fastest()
+    if library in fastest:
+        name, over = fastest[library]
+        return over_text(over, name.split(",")[0].removeprefix(f"{library}."))
+    return f"{run.wrong_of(library)} wrong" if run.wrong_of(library) else ""
+
+
 def worlds_table(times):
     """[header, row, ...] of texts: of bodies that are meshes."""
-    rows = [["bodies", "triangles of each", "that move in a frame", "distances in a frame", "boxwood::World", "FCL / it", "Coal / it",
-             "FclBroadPhase with FCL's shapes / it"]]
+    rows = [["bodies", "triangles of each", "that move in a frame", "distances in a frame", "answers checked", "boxwood::World",
+             "FCL's fastest / it", "Coal's fastest / it", "FclBroadPhase with FCL's shapes / it", "CoalBroadPhase with Coal's shapes / it"]]
     for run in times.runs:
         if run.triangles:
-            fastest = run.fastest()
-            rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", times_text(run, WORLD),
-                         *(over_text(fastest[library][1]) if library in fastest else "" for library in OURS),
-                         over_text(run.over(WITH_FCL, WORLD)) if run.times(WITH_FCL) else ""])
+            rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", f"{run.checked:,} of {run.queries:,}",
+                         times_text(run, WORLD), *(rival_text(run, library) for library in OURS),
+                         *(over_text(run.over(name, WORLD)) if run.times(name) else "" for name in WITH_SHAPES.values())])
     return rows

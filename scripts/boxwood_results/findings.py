@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from boxwood.results.words import interval_text
 
-PEERS, OURS, THREADS, STAGES, DEVICES = "peers", "ours", "threads", "stages", "devices"  # families of /compare
+PEERS, OURS, THREADS, STAGES, DEVICES, ERRORS = "peers", "ours", "threads", "stages", "devices", "errors"  # families of /compare
 RACE, CALL = "race", "call"  # topics of /findings about times against rivals: of trees and meshes, of kernels alone
 
 

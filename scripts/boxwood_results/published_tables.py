@@ -1,11 +1,10 @@
 """The tables of a published run: run -> [header, row, ...] of texts."""
 
-import re
 from dataclasses import dataclass, field
 from math import isnan
 
 from .figures import forest
-from .findings import CALL, PEERS, Ratio
+from .findings import CALL, ERRORS, PEERS, Ratio
 from .moving import played_scenes
 from .run import Where
 from .selection import wrong_counts
@@ -208,23 +207,17 @@ def against_ourselves(run):
     return rows
 
 
-WITHIN = re.compile(r"\.within_[0-9.]+$")
-
-
 def by_error(run):
-    """What a query takes by the error that it may make, ours alone: what accuracy costs."""
-    found = {}
-    for cell in run.cells:
-        if cell.ours and cell.has("query") and cell.status != "wrong":
-            of_scene = found.setdefault((cell.job, WITHIN.sub("", cell.contender)), {})
-            of_scene[cell.relative_error] = cell
-    found = {key: of_error for key, of_error in found.items() if len(of_error) > 1}
-    errors = sorted({error for of_error in found.values() for error in of_error})
-    rows = [["the answer may be too far by", "ours", *(f"{100 * error:g} %" if error else "nothing" for error in errors)]]
-    for (_, name), of_error in found.items():
-        cell = next(iter(of_error.values()))
-        rows.append([f"{cell.task.title}, {cell.scene_title}", name.removesuffix(f".{cell.traversal}"),
-                     *(time_text(of_error[error].median("query")) if error in of_error else "" for error in errors)])
+    """What an error that an answer may have saves, ours against ours: what accuracy costs."""
+    rows_of = {}
+    for row in run.family(ERRORS, "query"):
+        rows_of.setdefault(row.a.cell_id, []).append(row)
+    errors = sorted({row.b.relative_error for of in rows_of.values() for row in of})
+    rows = [["the answer may be too far by", "ours", "nothing", *(f"{100 * error:g} %, of that" for error in errors)]]
+    for of in rows_of.values():
+        exact, shares = of[0].a, {row.b.relative_error: marked(row.ratio.text, row) for row in of}
+        rows.append([f"{exact.task.title}, {exact.scene_title}", exact.contender.removesuffix(f".{exact.traversal}"),
+                     time_text(exact.median("query")), *(shares.get(error, "") for error in errors)])
     return rows
 
 

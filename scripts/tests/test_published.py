@@ -147,11 +147,12 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
 
     world = [manager("boxwood.world", 1), manager("boxwood.fcl_manager, FCL's shapes", 4), manager("fcl.tree, FCL's shapes", 8),
              manager("coal.tree, Coal's shapes", 6, wrong=1)]
-    runs.append(dropin_times.Run(1000, 1, 10, world, triangles=500, distances=20))
+    runs.append(dropin_times.Run(1000, 1, 10, world, triangles=500, distances=20, queries=210, checked=200))
     dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
     published.write(root)
     text = (root / TABLES).read_text()
-    assert "| 1,000 | 500 | all | 20 | 1.00 ms for 10 frames | 8.00x (7.20 to 8.80) |  | 4.00x (3.60 to 4.40) |" in text
+    assert ("| 1,000 | 500 | all | 20 | 200 of 210 | 1.00 ms for 10 frames | 8.00x (7.20 to 8.80) tree | 1 wrong | 4.00x (3.60 to 4.40) |  |"
+            ) in text
     assert "dropin.json --rounds 9 --bodies 1000 --meshes 1000`" in text and published.problems(root) == []
 
     def refused(why):

@@ -306,7 +306,10 @@ Peer coal_peer() {
         replay("boxwood.coal_manager, Coal's shapes", "boxwood",
                "boxwood::CoalBroadPhase with coal::collide and coal::distance", std::nullopt, true),
         replay("coal.dynamic_aabb_tree, Coal's shapes", "coal",
-               tree + " with coal::collide and coal::distance", CoalManager::tree_median, true)};
+               tree + " with coal::collide and coal::distance", CoalManager::tree_median, true),
+        replay("coal.dynamic_aabb_tree_array, Coal's shapes", "coal",
+               array + " with coal::collide and coal::distance", CoalManager::tree_array_median,
+               true)};
     return peer;
 }
 

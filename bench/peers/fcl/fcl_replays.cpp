@@ -34,15 +34,12 @@ using Floats = Managers<float> (*)();
 /// What FCL 0.7 does not come back from.
 enum class Ends : std::uint8_t {
     always,
-    not_far_in_floats, ///< its trees of floats crash on a half-space among many
+    not_far_in_floats, ///< as is_stood_by_floats says
     without_distances  ///< SSaP looks for ever for what is near its only object
 };
 bool is_stood(Ends ends, const RecordedProgram& program) {
-    constexpr double far = 1e18;
     if (ends == Ends::not_far_in_floats && program.bits == 32)
-        return std::ranges::all_of(program.states, [](const RecordedProgram::State& state) {
-            return std::ranges::all_of(state.bounds, [](double x) { return std::abs(x) <= far; });
-        });
+        return is_stood_by_floats(program);
     if (ends == Ends::without_distances)
         return std::ranges::none_of(program.calls, [](const RecordedProgram::Call& call) {
             return is_distance(call.what);
@@ -68,6 +65,13 @@ ReplayEntry entry(std::string name, std::string library, std::string summary, Do
 
 } // namespace
 } // namespace by_bounds
+
+bool is_stood_by_floats(const RecordedProgram& program) {
+    constexpr double far = 1e18;
+    return std::ranges::all_of(program.states, [](const RecordedProgram::State& state) {
+        return std::ranges::all_of(state.bounds, [](double x) { return std::abs(x) <= far; });
+    });
+}
 
 std::vector<ReplayEntry> fcl_replays() {
     using by_bounds::entry, by_bounds::plain, by_bounds::tree, by_bounds::Ends;

@@ -95,7 +95,7 @@ class DistanceOfMeshes final : public MeshPairTask {
         if (choice.relative_error > 0) {
             std::string error = fmt::format("{:.6f}", choice.relative_error);
             error.erase(error.find_last_not_of('0') + 1);
-            entry.name += ".within_" + error;
+            (entry.name += results::error_mark) += error;
             entry.notes += fmt::format("; up to {} of the answer too far", error);
             Settings settings = choice.settings;
             settings["relative_error"] = choice.relative_error;

@@ -4,7 +4,7 @@
 PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build", "device_query", "download",
           "build+query", "update+query", "cold_build+query")
 STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
-FAMILIES = ("", "peers", "ours", "threads", "stages", "devices")
+FAMILIES = ("", "peers", "ours", "threads", "stages", "devices", "errors")
 TOPICS = ("", "race", "call", "kernel", "scene", "device")
 VERDICTS = ("", "faster", "slower", "same", "cannot_tell", "wrong")
 REASONS = ("", "too_few_rounds", "below_the_floor", "crosses_1", "unchecked", "too_noisy", "memory_layout")
