@@ -15,8 +15,7 @@ namespace {
 
 using results::Comparison;
 using results::Family;
-using results::Phase;
-using results::Reason;
+using results::Phase, results::Reason;
 using results::Results;
 using results::Verdict;
 
@@ -237,7 +236,7 @@ TEST(ComparePeers, BuildersAloneOnlyWhereTheFasterOnesTreeIsAsGood) {
         }
 }
 
-TEST(CompareFamilies, OursThreadsAndStages) {
+TEST(CompareFamilies, OursThreadsStagesAndErrors) {
     RunForTest run;
     const auto hilbert = run.cell("uniform", 1000, "pairs", "hilbert.packed"),
                wide = run.cell("uniform", 1000, "pairs", "hilbert.wide8"),
@@ -245,18 +244,24 @@ TEST(CompareFamilies, OursThreadsAndStages) {
                two = run.cell("uniform", 1000, "pairs", "mine.wide8", 2),
                required = run.cell("warehouse", 10, "scene_queries", "required"),
                all = run.cell("warehouse", 10, "scene_queries", "all_stages"),
-               without = run.cell("warehouse", 10, "scene_queries", "required.without_drift");
+               without = run.cell("warehouse", 10, "scene_queries", "required.without_drift"),
+               exact = run.cell("bunny", 100, "distance", "my.obb.distance"),
+               within = run.cell("bunny", 100, "distance", "my.obb.distance.within_0.1"),
+               warm = run.cell("bunny", 100, "distance", "my.obb.distance.warm.within_0.1");
     for (const auto& [cell, ns] : {std::pair{hilbert, 100.},
                                    {wide, 80.},
                                    {mine, 40.},
                                    {two, 25.},
                                    {required, 100.},
                                    {all, 300.},
-                                   {without, 80.}})
+                                   {without, 80.},
+                                   {exact, 100.},
+                                   {within, 20.},
+                                   {warm, 10.}})
         run.time(cell, Phase::query, ns);
     set_statuses(run.results);
     const auto rows = comparisons_of(run.results, Times(run.results), default_delta);
-    ASSERT_EQ(rows.size(), 5u);
+    ASSERT_EQ(rows.size(), 6u);
     const auto expect = [&](std::uint32_t a, std::uint32_t b, Family family, double ratio) {
         const Comparison& row = row_of(rows, a, b, Phase::query);
         EXPECT_EQ(row.family, family);
@@ -267,31 +272,8 @@ TEST(CompareFamilies, OursThreadsAndStages) {
     expect(mine, two, Family::threads, 25. / 40);
     expect(required, all, Family::stages, 3);
     expect(without, required, Family::stages, 1.25);
+    expect(exact, within, Family::errors, 0.2);
     EXPECT_EQ(reference_of(Index(run.results), run.results.cells[hilbert]), nullptr); // itself
-}
-
-TEST(CompareFamilies, AnErrorIsHeldAgainstNone) {
-    RunForTest run;
-    const auto exact = run.cell("bunny", 100, "distance", "mine.obb.distance"),
-               warm = run.cell("bunny", 100, "distance", "mine.obb.distance.warm"),
-               within = run.cell("bunny", 100, "distance", "mine.obb.distance.within_0.1"),
-               warm_within =
-                   run.cell("bunny", 100, "distance", "mine.obb.distance.warm.within_0.1"),
-               alone = run.cell("bunny", 100, "distance", "other.obb.distance.within_0.1"),
-               two = run.cell("bunny", 100, "distance", "mine.obb.distance.within_0.1", 2);
-    for (const auto& [cell, ns] : {std::pair{exact, 100.},
-                                   {warm, 50.},
-                                   {within, 20.},
-                                   {warm_within, 40.},
-                                   {alone, 10.},
-                                   {two, 10.}})
-        run.time(cell, Phase::query, ns);
-    set_statuses(run.results);
-    std::vector<Comparison> rows = comparisons_of(run.results, Times(run.results), default_delta);
-    std::erase_if(rows, [](const Comparison& row) { return row.family != Family::errors; });
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_NEAR(row_of(rows, exact, within, Phase::query).ratio, .2, 1e-12);
-    EXPECT_NEAR(row_of(rows, warm, warm_within, Phase::query).ratio, .8, 1e-12);
 }
 
 TEST(CompareFamilies, AReferenceRunsOnAsManyThreads) {

@@ -418,16 +418,18 @@ def test_first_builds_have_a_row_of_their_own(tmp_path):
 
 
 def test_what_an_error_saves_has_a_row_for_each_scene():
-    def cell(scene, error, us, **other):
-        usual = {"ours": True, "status": "certified", "has": lambda phase: True}
-        return SimpleNamespace(job=scene, task=SimpleNamespace(title="distance"), scene_title=scene, traversal="distance", relative_error=error,
-                               contender="median.obb.distance" + (f".within_{error:g}" if error else ""), median=lambda phase: 1e3 * us, **usual | other)
+    def row(scene, error, share, is_open=False):
+        usual = {"task": SimpleNamespace(title="distance"), "scene_title": scene, "traversal": "distance", "contender": "median.obb.distance"}
+        exact = SimpleNamespace(cell_id=scene, relative_error=0, median=lambda phase: 5e3, **usual)
+        return SimpleNamespace(a=exact, b=SimpleNamespace(relative_error=error), ratio=published_tables.Ratio(share, share, share), is_open=is_open)
 
-    cells = [cell("far", 0.1, 2), cell("far", 0, 5), cell("near", 0, 7), cell("near", 0.001, 6), cell("alone", 0, 9),
-             cell("peer", 0, 9, ours=False), cell("peer", 0.1, 8, ours=False), cell("wrong", 0, 9), cell("wrong", 0.1, 8, status="wrong")]
-    header, *rows = published_tables.by_error(SimpleNamespace(cells=cells))
-    assert header[2:] == ["nothing", "0.1 %", "10 %"]
-    assert rows == [["distance, far", "median.obb", "5.00 us", "", "2.00 us"], ["distance, near", "median.obb", "7.00 us", "6.00 us", ""]]
+    asked = []
+    compared = [row("far", 0.1, 0.4), row("near", 0.001, 0.9, is_open=True), row("far", 0.001, 0.8)]
+    run = SimpleNamespace(family=lambda *of: asked.append(of) or compared)
+    header, *rows = published_tables.by_error(run)
+    assert asked == [("errors", "query")] and header[2:] == ["nothing", "0.1 %, of that", "10 %, of that"]
+    text = [published_tables.Ratio(share, share, share).text for share in (0.8, 0.4, 0.9)]
+    assert rows == [["distance, far", "median.obb", "5.00 us", text[0], text[1]], ["distance, near", "median.obb", "5.00 us", f"{text[2]} ?", ""]]
 
 
 def test_a_question_with_a_library_struck_out_is_neither_the_middle_nor_the_most(monkeypatch):
