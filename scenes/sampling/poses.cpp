@@ -20,6 +20,8 @@ struct PoseKind {
     std::string_view name, summary;
     double gap;
     bool is_path = false; ///< each is a degree on from the one before
+    /// Not turned, apart where the mesh is thinnest, in parts of its greatest width.
+    bool is_parallel = false;
 };
 constexpr PoseKind kinds[] = {
     {"apart", "half its width away from the mesh", .5},
@@ -27,6 +29,8 @@ constexpr PoseKind kinds[] = {
     {"shallow", "overlapping by a fiftieth of its width, which need not touch", -.02},
     {"deep", "overlapping by half its width", -.5},
     {"along", "a hundredth of its width away, each a degree on from the one before", .01, true},
+    {"parallel", "not turned, a hundredth of its width away from its flattest side", .01, false,
+     true},
 };
 
 constexpr PoseKindEntry paths[] = {
@@ -54,6 +58,27 @@ Vec middle_of(const TriangleMesh& mesh) {
         for (const std::uint32_t vertex : triangle)
             box.extend(Vec(mesh.vertices[vertex]));
     return 0.5 * (box.min + box.max);
+}
+
+/// The copy is shifted along the mesh, too, by up to a tenth.
+RigidTransform<double> parallel_pose(const TriangleMesh& mesh, double gap, Draws& draws) {
+    int thinnest = 0, widest = 0;
+    Vec widths;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec along{};
+        along[axis] = 1;
+        const Extent extent = extent_along(along, mesh);
+        widths[axis] = extent.greatest - extent.least;
+        if (widths[axis] < widths[thinnest])
+            thinnest = axis;
+        if (widths[axis] > widths[widest])
+            widest = axis;
+    }
+    RigidTransform<double> pose;
+    for (int axis = 0; axis < 3; ++axis)
+        pose.translation[axis] = axis == thinnest ? widths[axis] + gap * widths[widest]
+                                                  : .1 * (2 * draws.uniform() - 1) * widths[axis];
+    return pose;
 }
 
 } // namespace
@@ -110,6 +135,10 @@ std::vector<RigidTransform<double>> make_poses(std::string_view kind, const Tria
     for (std::size_t i = 0; i < n; ++i) {
         Draws draws = numbers.item(of.is_path ? 0 : i);
         RigidTransform<double>& pose = poses[i];
+        if (of.is_parallel) {
+            pose = parallel_pose(mesh, of.gap, draws);
+            continue;
+        }
         pose.rotation = rotation_of(draws);
         Vec way = draws.unit_vector();
         if (of.is_path) {

@@ -43,6 +43,21 @@ TEST(ScenePoses, AlongAWayAreADegreeApart) {
     EXPECT_GT(length(poses[89].translation - poses[0].translation), .5); // it leads away
 }
 
+TEST(ScenePoses, ParallelSheetsLieOnOneAnother) {
+    const Scene scene = make_scene({.generator = "cloth", .n = 200}); // 3 units wide
+    const auto poses = make_poses("parallel", scene.mesh, 8, 3);
+    for (const auto& pose : poses) {
+        EXPECT_EQ(pose.rotation, (RigidTransform<double>{}.rotation));
+        int across = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            across += std::abs(pose.translation[axis] - .03) < 1e-6;
+            EXPECT_LT(std::abs(pose.translation[axis]), .31);
+        }
+        EXPECT_GE(across, 1);
+    }
+    EXPECT_NE(poses[0], poses[1]);
+}
+
 TEST(ScenePoses, DependOnSeedAndNumberAlone) {
     const Scene scene = make_scene({.generator = "sphere_mesh", .n = 100});
     const auto few = make_poses("near", scene.mesh, 3, 1),

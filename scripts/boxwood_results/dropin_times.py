@@ -143,7 +143,7 @@ def worlds_table(times):
              "FCL's fastest / it", "Coal's fastest / it", "FclBroadPhase with FCL's shapes / it", "CoalBroadPhase with Coal's shapes / it"]]
     for run in times.runs:
         if run.triangles:
-            rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", f"{run.checked:,} of {run.queries:,}",
+            rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", f"{run.checked:,} of {run.queries:,}" if run.queries else "by World's",
                          times_text(run, WORLD), *(rival_text(run, library) for library in OURS),
                          *(over_text(run.over(name, WORLD)) if run.times(name) else "" for name in WITH_SHAPES.values())])
     return rows

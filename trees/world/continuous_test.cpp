@@ -196,25 +196,39 @@ TEST(FirstContact, IsNotAfterWhatSamplesFind) {
     EXPECT_LT(hits, 55u);
 }
 
-TEST(FirstContact, IsTheSameWhereBothAreMovedTogether) {
-    std::mt19937 random(8);
+TEST(FirstContact, IsTheSameWhereBothAreMovedSwappedOrScaled) {
+    std::mt19937 random(11);
     std::uniform_real_distribution<double> place(-3, 3);
-    const MeshTree a(noisy_sphere(7, 9, .2, 1)), b(noisy_sphere(8, 6, .3, 2));
+    const TriangleMesh mesh_a = noisy_sphere(7, 9, .2, 1), mesh_b = noisy_sphere(8, 6, .3, 2);
+    const auto scaled = [](TriangleMesh mesh) {
+        for (Vec3<float>& v : mesh.vertices)
+            v = 1024.f * v;
+        return MeshTree(std::move(mesh));
+    };
+    const MeshTree a(mesh_a), b(mesh_b), large_a = scaled(mesh_a), large_b = scaled(mesh_b);
     const auto pose = [&] {
         return random_pose(random, {place(random), place(random), place(random)});
+    };
+    const auto larger = [](Pose of) {
+        of.translation = 1024. * of.translation;
+        return of;
     };
     std::size_t hits = 0;
     for (int k = 0; k < 60; ++k) {
         const auto path = k % 2 == 0 ? MotionPath::linear : MotionPath::screw;
         const Pose from_a = pose(), to_a = pose(), from_b = pose(), to_b = pose(), moved = pose();
-        const auto contact = [&](const Pose& by) {
-            return first_contact(a, Motion(compose(by, from_a), compose(by, to_a), path), b,
-                                 Motion(compose(by, from_b), compose(by, to_b), path));
-        };
-        const FirstContact before = contact({}), after = contact(moved);
-        EXPECT_EQ(before.hit, after.hit);
-        EXPECT_LE(before.t_free, after.t_hit + 1e-9);
-        EXPECT_LE(after.t_free, before.t_hit + 1e-9);
+        const Motion way_a(from_a, to_a, path), way_b(from_b, to_b, path);
+        const FirstContact before = first_contact(a, way_a, b, way_b);
+        for (const FirstContact& after :
+             {first_contact(b, way_b, a, way_a),
+              first_contact(a, Motion(compose(moved, from_a), compose(moved, to_a), path), b,
+                            Motion(compose(moved, from_b), compose(moved, to_b), path)),
+              first_contact(large_a, Motion(larger(from_a), larger(to_a), path), large_b,
+                            Motion(larger(from_b), larger(to_b), path))}) {
+            EXPECT_EQ(before.hit, after.hit);
+            EXPECT_LE(before.t_free, after.t_hit + 1e-9);
+            EXPECT_LE(after.t_free, before.t_hit + 1e-9);
+        }
         hits += before.hit == Answer::yes;
     }
     EXPECT_GT(hits, 15u);

@@ -29,6 +29,23 @@ TEST(Contacts, WindingChangesNothing) {
     }
 }
 
+TEST(Contacts, WindingOfAMeshChangesNothing) {
+    std::mt19937 random(6);
+    TriangleMesh a = noisy_sphere(10, 9, .2, 1);
+    const MeshTree before(a), b(noisy_sphere(8, 11, .3, 2));
+    for (std::size_t i = 0; i < a.triangles.size(); i += 2)
+        std::swap(a.triangles[i][0], a.triangles[i][1]);
+    const MeshTree after(a);
+    for (int k = 0; k < 20; ++k) {
+        const Pose pose = random_pose(random, {.05 * k, .3, .4});
+        const std::vector<Contact> x = contacts(before, b, pose), y = contacts(after, b, pose);
+        ASSERT_EQ(x.size(), y.size());
+        EXPECT_FALSE(x.empty());
+        for (std::size_t i = 0; i < x.size(); ++i) // the deepest first
+            EXPECT_NEAR(x[i].depth, y[i].depth, 1e-12);
+    }
+}
+
 /// Of near triangles, by all pairs: those that surely are, and those that may be within rounding.
 TEST(Contacts, AMarginMakesNearTrianglesMeet) {
     std::mt19937 random(9);

@@ -294,13 +294,14 @@ TEST(MeshPairs, SwappedSidesAgree) {
     std::mt19937 random(3);
     const MeshTree a(noisy_sphere(10, 9, .2, 1)), b(noisy_sphere(8, 11, .3, 2));
     std::uniform_real_distribution<double> place(-2, 2);
-    for (int k = 0; k < 20; ++k) {
+    for (int k = 0; k < 200; ++k) {
         const Pose there = random_pose(random, {place(random), place(random), place(random)});
         const Pose back = relative_pose(there, no_pose);
         const MeshDistance d = distance(a, b, there), e = distance(b, a, back);
         EXPECT_NEAR(d.distance, e.distance, 1e-14);
         if (d.distance == 0 || d.distance > 1e-12) { // corners are rounded on one side
             EXPECT_EQ(collide(a, b, there), collide(b, a, back));
+            EXPECT_EQ(within(a, b, there, .3).within, within(b, a, back, .3).within);
         }
     }
 }
@@ -325,20 +326,39 @@ TEST(MeshPairs, ARigidMotionOfBothChangesLittle) {
 
 TEST(MeshPairs, PowersOfTwoChangeNothing) {
     std::mt19937 random(4);
+    std::uniform_real_distribution<double> place(-2, 2);
     const TriangleMesh a = noisy_sphere(10, 9, .2, 1), b = noisy_sphere(8, 11, .3, 2);
-    const Pose pose = random_pose(random, {1.3, 1.2, 1.1});
-    const MeshDistance d = distance(MeshTree(a), MeshTree(b), pose);
+    const MeshTree tree_a(a), tree_b(b);
+    std::vector<Pose> poses{random_pose(random, {1.3, 1.2, 1.1})};
+    for (int k = 0; k < 30; ++k)
+        poses.push_back(random_pose(random, {place(random), place(random), place(random)}));
+    const auto all_pairs = [](const MeshTree& s, const MeshTree& t, const Pose& pose) {
+        std::vector<Pair> pairs = touching_triangles(s, t, pose);
+        std::ranges::sort(pairs);
+        return pairs;
+    };
+    std::size_t touching = 0;
     for (const int exponent : {-60, -20, 20, 56}) {
         const auto scaled = [&](TriangleMesh mesh) {
             for (Vec3<float>& v : mesh.vertices)
                 v = std::ldexp(1.0f, exponent) * v;
             return MeshTree(std::move(mesh));
         };
-        Pose there = pose;
-        there.translation = std::ldexp(1.0, exponent) * pose.translation;
-        const MeshDistance e = distance(scaled(a), scaled(b), there);
-        EXPECT_NEAR(std::ldexp(e.distance, -exponent), d.distance, 1e-12);
+        const MeshTree scaled_a = scaled(a), scaled_b = scaled(b);
+        for (const Pose& pose : poses) {
+            Pose there = pose;
+            there.translation = std::ldexp(1.0, exponent) * pose.translation;
+            const MeshDistance d = distance(tree_a, tree_b, pose),
+                               e = distance(scaled_a, scaled_b, there);
+            EXPECT_NEAR(std::ldexp(e.distance, -exponent), d.distance, 1e-12);
+            const std::vector<Pair> pairs = all_pairs(tree_a, tree_b, pose);
+            EXPECT_EQ(all_pairs(scaled_a, scaled_b, there), pairs);
+            EXPECT_EQ(collide(scaled_a, scaled_b, there), !pairs.empty());
+            touching += !pairs.empty();
+        }
     }
+    EXPECT_GT(touching, 4u * 5);
+    EXPECT_LT(touching, 4u * 28);
 }
 
 TEST(MeshPairs, WindingChangesNothing) {
@@ -347,14 +367,22 @@ TEST(MeshPairs, WindingChangesNothing) {
     for (std::size_t i = 0; i < a.triangles.size(); i += 2)
         std::swap(a.triangles[i][0], a.triangles[i][1]);
     const MeshTree after(a);
-    Pose pose;
-    pose.translation = {.9, .3, .4};
-    std::vector<Pair> x = touching_triangles(before, b, pose),
-                      y = touching_triangles(after, b, pose);
-    std::ranges::sort(x);
-    std::ranges::sort(y);
-    EXPECT_EQ(x, y);
-    EXPECT_FALSE(x.empty());
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-2, 2);
+    std::size_t touching = 0;
+    for (int k = 0; k < 40; ++k) {
+        const Pose pose = random_pose(random, {place(random), place(random), place(random)});
+        std::vector<Pair> x = touching_triangles(before, b, pose),
+                          y = touching_triangles(after, b, pose);
+        std::ranges::sort(x);
+        std::ranges::sort(y);
+        EXPECT_EQ(x, y);
+        EXPECT_EQ(collide(after, b, pose), !x.empty());
+        EXPECT_NEAR(distance(after, b, pose).distance, distance(before, b, pose).distance, 1e-13);
+        touching += !x.empty();
+    }
+    EXPECT_GT(touching, 5u);
+    EXPECT_LT(touching, 35u);
 }
 
 // What they are given.

@@ -181,10 +181,21 @@ std::vector<std::uint32_t> World::candidates_of(std::uint32_t body, double toler
 
 void World::build_trees(std::span<const Pair> pairs) const {
     std::vector<std::uint32_t> wanted;
-    for (const Pair pair : pairs)
-        for (const std::uint32_t body : {pair.a, pair.b})
-            if (!bodies_[body].shape->is_built())
-                wanted.push_back(body);
+    const auto want = [&](std::uint32_t body) {
+        if (!bodies_[body].shape->is_built())
+            wanted.push_back(body);
+    };
+    if (pairs.size() < bodies_.size()) {
+        for (const Pair pair : pairs)
+            want(pair.a), want(pair.b);
+    } else { // each body is looked at once
+        std::vector<char> is_in_pair(bodies_.size(), 0);
+        for (const Pair pair : pairs)
+            is_in_pair[pair.a] = is_in_pair[pair.b] = 1;
+        for (std::uint32_t body = 0; body < is_in_pair.size(); ++body)
+            if (is_in_pair[body])
+                want(body);
+    }
     if (wanted.empty())
         return;
     std::ranges::sort(wanted);
