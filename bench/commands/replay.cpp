@@ -194,14 +194,15 @@ std::string as_text(const ReplayOptions& options, const RecordedProgram& program
                             "are moved within the time\n{}\n",
                             program.touch.contacts ? ", with their contacts" : "",
                             table_of(report, true));
-    const auto checked = [&](std::size_t n, const char* how) {
+    const auto checked = [&](std::size_t n, const char* how, bool are_more) {
         text +=
             fmt::format("{} of {} queries were checked by testing all {}{}.\n", n, report.n_queries,
-                        how, n < report.n_queries ? " (--max-tests 1e12 checks more)" : "");
+                        how, are_more ? " (--max-tests 1e12 checks more)" : "");
     };
-    checked(report.n_checked, "pairs of bounds");
+    checked(report.n_checked, "pairs of bounds", report.n_checked < report.n_queries);
     if (report.outcomes.back().has_shapes)
-        checked(report.n_shapes_checked, "triangles of pairs that may touch, or be the nearest");
+        checked(report.n_shapes_checked, "triangles of pairs that may touch, or be the nearest",
+                report.n_shapes_too_dear > 0);
     if (report.n_missed)
         text += fmt::format("THE PROGRAM'S OWN MANAGER MISSED PAIRS in {} of them, first in call "
                             "{}: bounds that overlap were not shown to its callback.\n",
@@ -362,7 +363,7 @@ void add_replay(CLI::App& app, int& exit_code) {
         "  boxwood replay program.h5 --only 'boxwood|array' --rounds 21 --json\n"
         "Answers are held against a test of all pairs and, with shapes, against rational\n"
         "arithmetic on triangles; where that is not known, against one another.\n"
-        "Exit codes: 0 done, 1 World or a manager of Boxwood's gave wrong answers,\n"
+        "Exit codes: 0 done, 1 wrong answers of World, or wrong bounds of a manager of Boxwood's,\n"
         "2 no recording, 130 interrupted (what was done is printed).");
     command->callback([options, &exit_code] { exit_code = run(*options); });
 }

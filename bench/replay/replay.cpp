@@ -195,6 +195,7 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
         return goes_on("testing triangles, for the truth with shapes");
     });
     report.n_shapes_checked = shapes.n_checked();
+    report.n_shapes_too_dear = shapes.n_too_dear();
     for (unsigned round = 0; round < rounds; ++round) {
         const auto check = [&](ReplayOutcome& outcome, const std::vector<ReplayedCall>& calls) {
             if (round == 0 && outcome.has_shapes) {

@@ -100,6 +100,10 @@ TEST(ShapeTruth, KnowsWhichMeshesTouch) {
     EXPECT_THAT(truth.fault(all, with({{0, 1}, {0, 2}, {1, 2}}), false),
                 HasSubstr("objects 0 and 1 do not touch"));
     EXPECT_THAT(truth.fault(all, with({{0, 2}, {0, 2}, {1, 2}}), false), HasSubstr("twice"));
+    program.call(Call::remove, {2}); // but it is where it was
+    const std::size_t without = program.call(Call::collide_self);
+    EXPECT_EQ(program.truth().fault(without, with({}), false), "");
+    EXPECT_NE(program.truth().fault(without, with({{0, 2}}), false), "");
     EXPECT_EQ(truth.fault(any, with({{0, 2}}), false), "");
     EXPECT_EQ(truth.fault(any, with({}), false), "objects 0 and 2 touch");
     EXPECT_EQ(truth.fault(one, with({{1, 2}}), false), "");
@@ -118,8 +122,9 @@ TEST(ShapeTruth, KnowsHowFarApartMeshesAre) {
     EXPECT_EQ(truth.fault(self, apart(.5), false), "");
     EXPECT_EQ(truth.fault(self, apart(.50001), false), "said to be 0.50001 apart, and it is 0.5");
     EXPECT_NE(truth.fault(self, apart(.49999), false), "");
-    EXPECT_EQ(truth.fault(self, apart(.50001), true), ""); // floats, 100 from the origin
-    EXPECT_NE(truth.fault(self, apart(.501), true), "");
+    EXPECT_NE(truth.fault(self, apart(.500002), false), "");
+    EXPECT_EQ(truth.fault(self, apart(.500002), true), ""); // floats
+    EXPECT_NE(truth.fault(self, apart(.50001), true), "");
     EXPECT_EQ(truth.fault(one, apart(99.5), false), "");
     EXPECT_NE(truth.fault(one, apart(100), false), "");
     EXPECT_NE(truth.fault(one, apart(0), false), "");
@@ -162,25 +167,54 @@ TEST(ShapeTruth, RoundedMeshesMayTouchEitherWay) {
     EXPECT_EQ(truth.fault(call, with({}), false), "");
 }
 
+/// What rests on another touches it, or not, as each library rounds.
+TEST(ShapeTruth, WithinRoundingBothAreRight) {
+    Written program;
+    program.add_mesh({{0, 0, .5}, {1, 0, .5}, {0, 1, .5}}, {0, 0, .1});     // at 0.6
+    program.add_mesh({{0, 0, -.5}, {1, 0, -.5}, {0, 1, -.5}}, {0, 0, 1.1}); // at 0.6000000000000001
+    program.add_mesh(flat, {0, 0, .6 - 1e-7});
+    const std::size_t call = program.call(Call::collide_self);
+    const ShapeTruth truth = program.truth();
+    for (const std::vector<Pair>& either : {std::vector<Pair>{}, {{0, 1}}})
+        EXPECT_EQ(truth.fault(call, with(either), false), "");
+    EXPECT_NE(truth.fault(call, with({{0, 2}}), false), "");
+    EXPECT_EQ(truth.fault(call, with({{0, 2}}), true), ""); // of floats
+    Written touching;
+    touching.add_mesh(flat, {});
+    touching.add_mesh(flat, {});
+    touching.add_mesh(upright, {});
+    const std::size_t all = touching.call(Call::collide_self);
+    EXPECT_EQ(touching.truth().fault(all, with({{0, 2}, {1, 2}}), false), ""); // two in one plane
+    EXPECT_NE(touching.truth().fault(all, with({{0, 1}, {0, 2}}), true), "");
+}
+
 TEST(ShapeTruth, LeavesOutWhatItDoesNotKnow) {
     Written program;
     const std::uint32_t a = program.add_mesh(flat, {});
     const std::uint32_t b = program.add_mesh(upright, {});
     program.move(b, {5, 0, 0}); // and is not reported
     const std::size_t stale = program.call(Call::collide_object, {b});
+    const std::size_t still_stale = program.call(Call::collide_self);
+    program.call(Call::update_some, {b});
     const std::size_t known = program.call(Call::collide_self);
     const std::size_t others = program.call(Call::collide_others, {a});
     const std::size_t of_none = program.call(Call::collide_object);
     program.add_mesh(flat, {std::numeric_limits<double>::infinity(), 0, 0});
     const std::size_t nowhere = program.call(Call::distance_self);
+    program.move(2, {std::numeric_limits<double>::quiet_NaN(), 0, 0});
+    program.call(Call::update_all);
+    const std::size_t nan = program.call(Call::distance_self);
     program.call(Call::remove, {2});
     const std::size_t again = program.call(Call::collide_self);
     program.add(recording::Shape::cone, {1, 1}, {});
     const std::size_t cone = program.call(Call::collide_self);
+    program.call(Call::remove, {3});
+    program.add(recording::Shape::mesh, {}, {}); // of nothing
+    const std::size_t empty = program.call(Call::distance_self);
     program.call(Call::clear);
     const std::size_t none = program.call(Call::distance_self);
     const ShapeTruth truth = program.truth();
-    for (const std::size_t call : {stale, others, of_none, nowhere, cone})
+    for (const std::size_t call : {stale, still_stale, others, of_none, nowhere, nan, cone, empty})
         EXPECT_FALSE(truth.is_checked(call)) << call;
     for (const std::size_t call : {known, again, none})
         EXPECT_TRUE(truth.is_checked(call)) << call;

@@ -135,8 +135,9 @@ PosedTriangles placed(const PosedTriangles& triangles, const RigidTransform<doub
 
 double norm1(Vec3<double> v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// Whether all of t is on one side of the plane of s, beyond what rounding may be off by: 2^-46 of
-/// the product of the lengths is more than its ten roundings.
+/// Whether all of t is on one side of the plane of s, beyond what rounding may be off by: eight
+/// roundings of products that 2^-46 of that of the lengths is 16 times of. Where that leaves the
+/// range of doubles nothing is said.
 bool is_on_one_side(const Triangle<double>& s, const Triangle<double>& t) {
     const Vec3<double> u = s.b - s.a, v = s.c - s.a, normal = cross(u, v);
     int above = 0, below = 0;

@@ -24,8 +24,7 @@ class NearestTriangles {
         double distance; ///< rounded from the exact one of some pair
         double lo;       ///< none is nearer
     };
-    /// Infinite if a set is empty; lo is at least distance (1 - 2^-40). If they are farther apart
-    /// than at_most, it is that.
+    /// lo is at least distance (1 - 2^-40). at_most if they are farther apart, or a set is empty.
     Least to(const NearestTriangles& other,
              double at_most = std::numeric_limits<double>::infinity()) const;
 

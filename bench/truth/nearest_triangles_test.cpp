@@ -49,6 +49,12 @@ TEST(NearestTriangles, AreThoseOfAllPairs) {
             EXPECT_LE(least.lo, expected * (1 + 0x1p-50));
             EXPECT_GE(least.lo, expected * (1 - 0x1p-39));
             touching += expected == 0;
+            const auto at_most = [&](double d) {
+                return NearestTriangles(a).to(NearestTriangles(b), d);
+            };
+            EXPECT_LE(std::abs(at_most(2 * expected).distance - expected), 0x1p-40 * expected);
+            EXPECT_EQ(at_most(.5 * expected).distance, .5 * expected);
+            EXPECT_GE(at_most(.5 * expected).lo, .5 * expected * (1 - 0x1p-39));
         }
     EXPECT_GT(touching, 0);
     EXPECT_LT(touching, 5);

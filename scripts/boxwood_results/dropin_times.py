@@ -68,11 +68,18 @@ class Run:
                 return f"{row['manager']} has not a time above 0 of each of {MIN_ROUNDS} rounds at least"
             if not math.isclose(statistics.median(ns / own for ns, own in zip(times, first)), row["over_first"]["mid"], rel_tol=NEAR):
                 return f"{row['manager']}: its ratio does not follow from its rounds"
+        if self.triangles and self.queries and not self.checked:
+            return "no answer was checked"
         return "" if self.times(self.ours("fcl")) else f"{self.ours('fcl')} is missing"
 
-    def wrong_of(self, library):
-        """How many answers of the best of a library's managers are wrong; 0 if it has none here."""
-        return min((row["wrong"] + row.get("differ", 0) for row in self.managers if row["manager"].split(".")[0] == library), default=0)
+    def why_not(self, names):
+        """Of managers that answer wrongly, what the best of them does; empty if one does not, or there is none."""
+        rows = [row for row in self.managers if row["manager"] in names]
+        faults = [(row["wrong"], row.get("differ", 0)) for row in rows]
+        if not faults or (0, 0) in faults:
+            return ""
+        wrong, differ = min(faults)
+        return f"{wrong} wrong" if wrong and self.checked else f"{wrong + differ} unlike ours"
 
 
 @dataclass(frozen=True)
@@ -134,7 +141,12 @@ def rival_text(run, library):
     if library in fastest:
         name, over = fastest[library]
         return over_text(over, name.split(",")[0].removeprefix(f"{library}."))
-    return f"{run.wrong_of(library)} wrong" if run.wrong_of(library) else ""
+    return run.why_not([row["manager"] for row in run.managers if row["manager"].split(".")[0] == library])
+
+
+def with_shapes_text(run, name):
+    """Of our manager with a library's shapes."""
+    return run.why_not([name]) or (over_text(run.over(name, WORLD)) if run.times(name) else "")
 
 
 def worlds_table(times):
@@ -145,5 +157,5 @@ def worlds_table(times):
         if run.triangles:
             rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", f"{run.checked:,} of {run.queries:,}" if run.queries else "by World's",
                          times_text(run, WORLD), *(rival_text(run, library) for library in OURS),
-                         *(over_text(run.over(name, WORLD)) if run.times(name) else "" for name in WITH_SHAPES.values())])
+                         *(with_shapes_text(run, name) for name in WITH_SHAPES.values())])
     return rows

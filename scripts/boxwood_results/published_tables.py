@@ -211,6 +211,8 @@ def by_error(run):
     """What an error that an answer may have saves, ours against ours: what accuracy costs."""
     rows_of = {}
     for row in run.family(ERRORS, "query"):
+        if row.verdict == "wrong":
+            continue
         rows_of.setdefault(row.a.cell_id, []).append(row)
     errors = sorted({row.b.relative_error for of in rows_of.values() for row in of})
     rows = [["the answer may be too far by", "ours", "nothing", *(f"{100 * error:g} %, of that" for error in errors)]]

@@ -131,17 +131,14 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
         return {"manager": name, "shapes": False, "wrong": wrong, "rounds_ns": [1e6 * ratio * factor for factor in spread],
                 "over_first": {"mid": ratio, "lo": 0.9 * ratio, "hi": 1.1 * ratio}}
 
-    runs = [dropin_times.Run(1000, 0.01, 50, [manager("boxwood.fcl_manager", 1), manager("fcl.slow", 9), manager("fcl.fast", 4),
-                                              manager("fcl.liar", 2, wrong=1), manager("boxwood.coal_manager", 2),
-                                              manager("coal.array", 2.1)])]
-    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
-           "versions": {}}
+    named = {"boxwood.fcl_manager": 1, "fcl.slow": 9, "fcl.fast": 4, "fcl.liar": 2, "boxwood.coal_manager": 2, "coal.array": 2.1}
+    runs = [dropin_times.Run(1000, 0.01, 50, [manager(name, ratio, wrong=int(name == "fcl.liar")) for name, ratio in named.items()])]
+    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10", "versions": {}}
     runs[0].managers[-2]["rounds_ns"].reverse()  # a round's times belong together
     dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
     published.write(root)
     text = (root / "README.md").read_text()
-    assert ("| 1,000 | 1 % | 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | "
-            "1.05x (0.859 to 1.28) ? coal.array |") in text
+    assert "| 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | 1.05x (0.859 to 1.28) ? coal.array |" in text
     assert "9 rounds in turns within one process, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
     assert "dropin.json --rounds 9 --bodies 1000 --meshes`" in text
 
@@ -155,6 +152,9 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
             ) in text
     assert "dropin.json --rounds 9 --bodies 1000 --meshes 1000`" in text and published.problems(root) == []
 
+    world[-1].update(wrong=0, differ=3)
+    assert [runs[1].why_not([name]) for name in ("boxwood.world", "nobody", "coal.tree, Coal's shapes")] == ["", "", "3 unlike ours"]
+
     def refused(why):
         dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
         with pytest.raises(published.BadFile, match=why):
@@ -166,6 +166,8 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     refused("fcl.slow has not a time above 0 of each of 9 rounds at least")
     runs[0].managers[0]["wrong"] = 1
     refused("boxwood.fcl_manager is wrong")
+    runs[:] = [dropin_times.Run(1000, 1, 10, world, triangles=500, queries=210)]
+    refused("no answer was checked")
 
 
 @pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])
@@ -418,16 +420,15 @@ def test_first_builds_have_a_row_of_their_own(tmp_path):
 
 
 def test_what_an_error_saves_has_a_row_for_each_scene():
-    def row(scene, error, share, is_open=False):
+    def row(scene, error, share, is_open=False, verdict="slower"):
         usual = {"task": SimpleNamespace(title="distance"), "scene_title": scene, "traversal": "distance", "contender": "median.obb.distance"}
         exact = SimpleNamespace(cell_id=scene, relative_error=0, median=lambda phase: 5e3, **usual)
-        return SimpleNamespace(a=exact, b=SimpleNamespace(relative_error=error), ratio=published_tables.Ratio(share, share, share), is_open=is_open)
+        return SimpleNamespace(a=exact, b=SimpleNamespace(relative_error=error), ratio=published_tables.Ratio(share, share, share), is_open=is_open,
+                               verdict=verdict)
 
-    asked = []
-    compared = [row("far", 0.1, 0.4), row("near", 0.001, 0.9, is_open=True), row("far", 0.001, 0.8)]
-    run = SimpleNamespace(family=lambda *of: asked.append(of) or compared)
-    header, *rows = published_tables.by_error(run)
-    assert asked == [("errors", "query")] and header[2:] == ["nothing", "0.1 %, of that", "10 %, of that"]
+    compared = [row("far", 0.1, 0.4), row("near", 0.001, 0.9, is_open=True), row("far", 0.001, 0.8), row("wrong", 0.1, 1, verdict="wrong")]
+    header, *rows = published_tables.by_error(SimpleNamespace(family=lambda family, phase: compared))
+    assert header[2:] == ["nothing", "0.1 %, of that", "10 %, of that"]
     text = [published_tables.Ratio(share, share, share).text for share in (0.8, 0.4, 0.9)]
     assert rows == [["distance, far", "median.obb", "5.00 us", text[0], text[1]], ["distance, near", "median.obb", "5.00 us", f"{text[2]} ?", ""]]
 
