@@ -386,7 +386,7 @@ bool ShapeTruth::may_be_either(std::size_t call, Pair pair, bool touches, bool i
     const PlacedSolid a(known(pair.a).solid, at_a);
     if (!touches) {
         const PlacedSolid b(known(pair.b).solid, at_b);
-        if (touch_of(a, b, false).maybe)
+        if (overlaps(a.box, b.box) && touch_of(a, b, false).maybe)
             return false; // one of them is not there
         const NearestTriangles of_a(a.outer), of_b(b.outer);
         return of_a.to(of_b).lo <= off;
