@@ -67,5 +67,43 @@ TEST(LinkSolid, OfAMeshIsItsSurfaceScaled) {
     EXPECT_FALSE(solid.may_contain({0, 0, 0}));
 }
 
+/// Doubles leave out only what rationals say is apart: triangles of any shape, barely above or
+/// below, in one plane, large, small, far away.
+TEST(LinkSolid, SurfacesTouchAsRationalsSay) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1, 1);
+    const auto point = [&] { return Vec3<double>{place(random), place(random), place(random)}; };
+    const auto surface = [](const Triangle<double>& t) {
+        LinkSolid solid;
+        solid.inner = solid.outer = {t};
+        return solid;
+    };
+    int touching = 0, apart = 0;
+    for (int k = 0; k < 6000; ++k) {
+        const Triangle<double> s{point(), point(), point()};
+        Triangle<double> t{point(), point(), point()};
+        if (k % 3 == 1) { // a corner on s, an edge or a corner of it, as doubles place it
+            const double u = k % 2 ? .25 : 0, v = k % 5 ? .5 : 0;
+            t.a = s.a + u * (s.b - s.a) + v * (s.c - s.a);
+        } else if (k % 3 == 2) { // a needle or a point near the plane of s
+            t.a = .5 * (s.a + s.b) + 0x1p-53 * t.a;
+            t.b = t.a + 0x1p-40 * t.b;
+            t.c = k % 2 ? t.a : t.c;
+        }
+        const double scale = k % 4 == 0 ? 0x1p90 : k % 4 == 1 ? 0x1p-320 : 1;
+        const Vec3<double> far = k % 7 ? Vec3<double>{} : scale * 1e6 * point();
+        const auto placed = [&](Triangle<double> of) {
+            return Triangle<double>{scale * of.a + far, scale * of.b + far, scale * of.c + far};
+        };
+        const LinkSolid a = surface(placed(s)), b = surface(placed(t));
+        const bool expected = oracle::intersect(a.inner[0], b.inner[0]);
+        EXPECT_EQ(surely_touch({a, {}}, {b, {}}), expected) << k;
+        EXPECT_EQ(may_touch({b, {}}, {a, {}}), expected) << k;
+        ++(expected ? touching : apart);
+    }
+    EXPECT_GT(touching, 1000);
+    EXPECT_GT(apart, 1000);
+}
+
 } // namespace
 } // namespace boxwood::bench
