@@ -2,6 +2,7 @@
 
 #include "kernels/primitives/rigid_transform.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -61,12 +62,12 @@ inline Rotation rotation_about(Vec3<double> axis, double angle) {
     return rotation_about(axis, std::sin(angle), std::cos(angle));
 }
 
-/// The largest entry of |R R^T - I|.
+/// The largest entry of |R R^T - I|; of finite numbers.
 inline double distance_from_orthonormal(const Rotation& r) {
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = i; j < 3; ++j)
-            largest = std::fmax(largest, std::abs(dot(r[i], r[j]) - (i == j ? 1 : 0)));
+            largest = std::max(largest, std::abs(dot(r[i], r[j]) - (i == j ? 1 : 0)));
     return largest;
 }
 

@@ -1,11 +1,11 @@
 /// Which triangles of two meshes share a point, or are near each other.
 ///
-/// First the boxes around all of both, along 15 axes. Then a step takes a pair of blocks and opens
-/// both at once. B's eight boxes are moved into A's frame and tested against the box around A's
-/// block; each that is left against A's eight boxes. Pairs of leaves: B's corners are moved in
-/// doubles, boxes of triangles are compared, and what is left goes to the exact kernel, 64 pairs at
-/// a time, or eight where the first hit will do. For near ones all boxes of one side reach so much
-/// farther, and the certified distance decides, pair by pair.
+/// First the balls around all of both, and the boxes, along 15 axes. Then a step takes a pair of
+/// blocks and opens both at once. B's eight boxes are moved into A's frame and tested against the
+/// box around A's block; each that is left against A's eight boxes. Pairs of leaves: B's corners
+/// are moved in doubles, boxes of triangles are compared, and what is left goes to the exact
+/// kernel, 64 pairs at a time, or eight where the first hit will do. For near ones all boxes of one
+/// side reach so much farther, and the certified distance decides, pair by pair.
 
 // Compiled once per instruction set; the best one is chosen at run time.
 #undef HWY_TARGET_INCLUDE
@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -283,42 +284,49 @@ template <Wanted wanted, bool counted> class Collision {
     double reach_;
 };
 
-/// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the boxes around
-/// all of them, before eight by eight.
-bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work,
-                  double reach = 0) {
-    if (work) {
+/// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the balls around
+/// all of them and one of the boxes, before eight by eight. Without a frame they are farther apart
+/// than `reach`.
+std::optional<PairFrame> frame_unless_parted(const MeshTree& a, const MeshTree& b, const Pose& pose,
+                                             Work* work, double reach = 0) {
+    std::optional<PairFrame> frame;
+    if (work)
         ++work->node_visits;
+    if (are_parted(a.ball(), b.ball(), pose, reach))
+        return frame;
+    if (work)
         ++work->box_tests;
-    }
-    return frame.parted(a.own(a.root()), b.own(b.root()), reach);
+    frame.emplace(a, b, pose);
+    if (frame->parted(a.own(a.root()), b.own(b.root()), reach))
+        frame.reset();
+    return frame;
 }
 
 bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
-    const PairFrame frame(a, b, pose);
-    if (roots_parted(a, b, frame, work))
+    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work);
+    if (!frame)
         return false;
     if (work)
-        return Collision<Wanted::first_touch, true>(a, b, frame, 1, nullptr, work).run();
-    return Collision<Wanted::first_touch, false>(a, b, frame, 1, nullptr, nullptr).run();
+        return Collision<Wanted::first_touch, true>(a, b, *frame, 1, nullptr, work).run();
+    return Collision<Wanted::first_touch, false>(a, b, *frame, 1, nullptr, nullptr).run();
 }
 void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
                  std::vector<Pair>& pairs, Work* work) {
-    const PairFrame frame(a, b, pose);
-    if (roots_parted(a, b, frame, work))
+    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work);
+    if (!frame)
         return;
     if (work)
-        Collision<Wanted::touches, true>(a, b, frame, limit, &pairs, work).run();
+        Collision<Wanted::touches, true>(a, b, *frame, limit, &pairs, work).run();
     else
-        Collision<Wanted::touches, false>(a, b, frame, limit, &pairs, nullptr).run();
+        Collision<Wanted::touches, false>(a, b, *frame, limit, &pairs, nullptr).run();
 }
 void all_near(const MeshTree& a, const MeshTree& b, const Pose& pose, double reach,
               std::size_t limit, std::vector<Pair>& pairs, Work* work) {
-    const PairFrame frame(a, b, pose);
-    if (roots_parted(a, b, frame, work, reach))
+    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work, reach);
+    if (!frame)
         return;
     Work unused;
-    Collision<Wanted::near, true>(a, b, frame, limit, &pairs, work ? work : &unused, reach).run();
+    Collision<Wanted::near, true>(a, b, *frame, limit, &pairs, work ? work : &unused, reach).run();
 }
 
 void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
@@ -326,14 +334,14 @@ void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
     constexpr std::size_t enough = 256, in_task = 8;
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
     using AllTouches = Collision<Wanted::touches, false>;
-    const PairFrame frame(a, b, pose);
-    if (roots_parted(a, b, frame, nullptr))
+    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, nullptr);
+    if (!frame)
         return;
-    const std::vector<Pair> front = AllTouches(a, b, frame, all, nullptr, nullptr).front(enough);
+    const std::vector<Pair> front = AllTouches(a, b, *frame, all, nullptr, nullptr).front(enough);
     std::vector<std::vector<Pair>> found((front.size() + in_task - 1) / in_task);
     executor.for_each(found.size(), [&](std::size_t task) {
         without_flushing([&] {
-            AllTouches below(a, b, frame, all, &found[task], nullptr);
+            AllTouches below(a, b, *frame, all, &found[task], nullptr);
             const std::size_t end = std::min(front.size(), (task + 1) * in_task);
             for (std::size_t i = task * in_task; i < end; ++i)
                 below.run(front[i]);

@@ -117,7 +117,7 @@ TEST(MeshPairs, BoxesSideBySideArePartedByOneTest) {
             Pose pose = random_pose(random, {});
             Vec3<double> way;
             way[axis] = 1;
-            pose.translation = 4. * (of_b ? pose.rotated(way) : way);
+            pose.translation = 2.8 * (of_b ? pose.rotated(way) : way);
             Work work;
             EXPECT_FALSE(collide(a, b, pose, &work));
             EXPECT_TRUE(touching_triangles(a, b, pose, 9, &work).empty());

@@ -150,6 +150,23 @@ void extents_of(const float (&axes)[9], const float (&centre)[3], const CornerRo
     }
 }
 
+float farthest_squared(const float (&centre)[3], const CornerRows& corners, std::size_t n) {
+    const hn::CappedTag<float, 8> d;
+    const auto cx = hn::Set(d, centre[0]), cy = hn::Set(d, centre[1]), cz = hn::Set(d, centre[2]);
+    auto farthest = hn::Zero(d);
+    for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+        const auto in_range = hn::FirstN(d, n - i);
+        for (const auto& corner : corners.of) {
+            const auto x = hn::Sub(hn::LoadU(d, corner[0] + i), cx);
+            const auto y = hn::Sub(hn::LoadU(d, corner[1] + i), cy);
+            const auto z = hn::Sub(hn::LoadU(d, corner[2] + i), cz);
+            const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+            farthest = hn::Max(farthest, hn::IfThenElseZero(in_range, squared));
+        }
+    }
+    return hn::GetLane(hn::MaxOfLanes(d, farthest));
+}
+
 } // namespace
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -159,6 +176,13 @@ namespace boxwood::detail {
 HWY_EXPORT(axes_of);
 HWY_EXPORT(extents_of);
 HWY_EXPORT(moments_about);
+HWY_EXPORT(farthest_squared);
+
+double farthest_from(const float (&centre)[3], const CornerRows& corners, std::size_t n) {
+    const float squared = HWY_DYNAMIC_DISPATCH(farthest_squared)(centre, corners, n);
+    // Six roundings of up to 2^-24, and squares that underflow.
+    return std::sqrt(double{squared}) * (1 + 0x1p-21) + 0x1p-61;
+}
 
 void principal_axes(const SymmetricRows& matrices, std::size_t n, float* const (&axes)[9]) {
     HWY_DYNAMIC_DISPATCH(axes_of)(matrices, n, axes);

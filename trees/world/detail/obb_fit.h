@@ -49,6 +49,10 @@ void principal_axes(const SymmetricRows& matrices, std::size_t n, float* const (
 PosedBox box_along(const float (&axes)[9], const CornerRows& corners, std::size_t first,
                    std::size_t last, const Aabb<float>& bounds);
 
+/// At least the distance of the n triangles' corners from `centre`, by less than 2^-20 of it and
+/// 2^-60 too much.
+double farthest_from(const float (&centre)[3], const CornerRows& corners, std::size_t n);
+
 /// The bounds themselves.
 PosedBox box_of(const Aabb<float>& bounds);
 

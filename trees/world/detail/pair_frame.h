@@ -26,7 +26,10 @@ struct SeenBox {
 /// than 14u S, and what it lacks as axes are not orthonormal (PosedBox::slack: 2 * 3.5u half) by
 /// 7u S. Together below 40u S; 128u = 2^-17 leaves room for squares, roots and sums of gaps, and
 /// 2^-70 for squares that underflow.
-/// `moved`: corners of B that are moved in doubles are off by 2^-50 of what they are made of.
+/// `moved`: corners of B that are moved in doubles are off by 2^-50 of what they are made of. Where
+/// no entry of |R R^T - I| is beyond d, B's boxes reach beyond what orthonormal axes say by less
+/// than 3d of their halves, and lengths along them are off by 1.5d: below 5d S in all. Up to d =
+/// 2^-49, which a product of rotations keeps to, the bounds in doubles have room for it.
 /// `corners`: heights of both sides' corners along a direction in floats, 8u of |corner|_1.
 struct PairFrame {
     PairFrame(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) : pose(b_in_a) {
@@ -36,23 +39,21 @@ struct PairFrame {
         };
         if (!is_usable(r0) || !is_usable(r1) || !is_usable(r2) || !is_usable(pose.translation))
             throw std::invalid_argument("a pose has a number that is not finite or beyond 2^62");
+        const double skew = distance_from_orthonormal(pose.rotation);
+        if (skew > 0x1p-12)
+            throw std::invalid_argument("a pose's matrix is off a rotation by more than 2^-12 (see "
+                                        "checked_pose)");
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3<double>& row = pose.rotation[i];
             rotation[i][0] = static_cast<float>(row.x);
             rotation[i][1] = static_cast<float>(row.y);
             rotation[i][2] = static_cast<float>(row.z);
         }
-        const auto size = [](const MeshTree& mesh) {
-            const Aabb<float>& box = mesh.bounds();
-            double greatest = 0;
-            for (int axis = 0; axis < 3; ++axis)
-                greatest +=
-                    std::max(std::abs(double{box.min[axis]}), std::abs(double{box.max[axis]}));
-            return greatest;
-        };
+        const double reach = a.ball().reach + b.ball().reach;
         const Vec3<double>& t = pose.translation;
-        moved = 0x1p-48 * (size(a) + size(b) + std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
-        corners = 0x1p-21 * (size(a) + size(b)) + moved + 0x1p-60;
+        moved = (0x1p-48 + (skew > 0x1p-49 ? 16 * skew : 0)) *
+                (reach + std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
+        corners = 0x1p-21 * reach + moved + 0x1p-60;
     }
 
     /// From the centre of a box of A to that of a box of B, in A's frame.
