@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -284,49 +283,41 @@ template <Wanted wanted, bool counted> class Collision {
     double reach_;
 };
 
-/// Most pairs of bodies whose boxes along the axes overlap lie apart: one test of the balls around
-/// all of them and one of the boxes, before eight by eight. Without a frame they are farther apart
-/// than `reach`.
-std::optional<PairFrame> frame_unless_parted(const MeshTree& a, const MeshTree& b, const Pose& pose,
-                                             Work* work, double reach = 0) {
-    std::optional<PairFrame> frame;
-    if (work)
+/// One test of the boxes around all of both, before eight by eight.
+bool roots_parted(const MeshTree& a, const MeshTree& b, const PairFrame& frame, Work* work,
+                  double reach = 0) {
+    if (work) {
         ++work->node_visits;
-    if (are_parted(a.ball(), b.ball(), pose, reach))
-        return frame;
-    if (work)
         ++work->box_tests;
-    frame.emplace(a, b, pose);
-    if (frame->parted(a.own(a.root()), b.own(b.root()), reach))
-        frame.reset();
-    return frame;
+    }
+    return frame.parted(a.own(a.root()), b.own(b.root()), reach);
 }
 
 bool first_touch(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work) {
-    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work);
-    if (!frame)
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work))
         return false;
     if (work)
-        return Collision<Wanted::first_touch, true>(a, b, *frame, 1, nullptr, work).run();
-    return Collision<Wanted::first_touch, false>(a, b, *frame, 1, nullptr, nullptr).run();
+        return Collision<Wanted::first_touch, true>(a, b, frame, 1, nullptr, work).run();
+    return Collision<Wanted::first_touch, false>(a, b, frame, 1, nullptr, nullptr).run();
 }
 void all_touches(const MeshTree& a, const MeshTree& b, const Pose& pose, std::size_t limit,
                  std::vector<Pair>& pairs, Work* work) {
-    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work);
-    if (!frame)
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work))
         return;
     if (work)
-        Collision<Wanted::touches, true>(a, b, *frame, limit, &pairs, work).run();
+        Collision<Wanted::touches, true>(a, b, frame, limit, &pairs, work).run();
     else
-        Collision<Wanted::touches, false>(a, b, *frame, limit, &pairs, nullptr).run();
+        Collision<Wanted::touches, false>(a, b, frame, limit, &pairs, nullptr).run();
 }
 void all_near(const MeshTree& a, const MeshTree& b, const Pose& pose, double reach,
               std::size_t limit, std::vector<Pair>& pairs, Work* work) {
-    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, work, reach);
-    if (!frame)
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, work, reach))
         return;
     Work unused;
-    Collision<Wanted::near, true>(a, b, *frame, limit, &pairs, work ? work : &unused, reach).run();
+    Collision<Wanted::near, true>(a, b, frame, limit, &pairs, work ? work : &unused, reach).run();
 }
 
 void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
@@ -334,14 +325,14 @@ void all_touches_by(const MeshTree& a, const MeshTree& b, const Pose& pose,
     constexpr std::size_t enough = 256, in_task = 8;
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
     using AllTouches = Collision<Wanted::touches, false>;
-    const std::optional<PairFrame> frame = frame_unless_parted(a, b, pose, nullptr);
-    if (!frame)
+    const PairFrame frame(a, b, pose);
+    if (roots_parted(a, b, frame, nullptr))
         return;
-    const std::vector<Pair> front = AllTouches(a, b, *frame, all, nullptr, nullptr).front(enough);
+    const std::vector<Pair> front = AllTouches(a, b, frame, all, nullptr, nullptr).front(enough);
     std::vector<std::vector<Pair>> found((front.size() + in_task - 1) / in_task);
     executor.for_each(found.size(), [&](std::size_t task) {
         without_flushing([&] {
-            AllTouches below(a, b, *frame, all, &found[task], nullptr);
+            AllTouches below(a, b, frame, all, &found[task], nullptr);
             const std::size_t end = std::min(front.size(), (task + 1) * in_task);
             for (std::size_t i = task * in_task; i < end; ++i)
                 below.run(front[i]);
@@ -363,10 +354,27 @@ HWY_EXPORT(first_touch);
 HWY_EXPORT(all_touches);
 HWY_EXPORT(all_near);
 HWY_EXPORT(all_touches_by);
+
+namespace {
+
+/// Most pairs of bodies whose boxes along the axes overlap lie apart, and the balls around them say
+/// so, whether denormals are flushed or not: no radius is one.
+bool balls_parted(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work,
+                  double reach = 0) {
+    if (a.empty() || b.empty())
+        return true;
+    if (!are_parted(a.ball(), b.ball(), pose, reach))
+        return false;
+    if (work)
+        ++work->node_visits;
+    return true;
+}
+
+} // namespace
 } // namespace detail
 
 bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* work) {
-    if (a.empty() || b.empty())
+    if (detail::balls_parted(a, b, b_in_a, work))
         return false;
     return without_flushing([&] {
         using namespace detail;
@@ -377,7 +385,7 @@ bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* wor
 void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, std::size_t limit,
                         std::vector<Pair>& pairs, Work* work) {
     pairs.clear();
-    if (a.empty() || b.empty() || limit == 0)
+    if (limit == 0 || detail::balls_parted(a, b, b_in_a, work))
         return;
     without_flushing([&] {
         using namespace detail;
@@ -397,7 +405,7 @@ std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pos
     if (!(reach >= 0 && reach < 0x1p100))
         throw std::invalid_argument("a reach must be at least 0, and below 2^100");
     std::vector<Pair> pairs;
-    if (a.empty() || b.empty() || limit == 0)
+    if (limit == 0 || detail::balls_parted(a, b, b_in_a, work, reach))
         return pairs;
     without_flushing([&] {
         using namespace detail;
@@ -409,7 +417,7 @@ std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pos
 std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                                      const Executor& executor) {
     std::vector<Pair> pairs;
-    if (a.empty() || b.empty())
+    if (detail::balls_parted(a, b, b_in_a, nullptr))
         return pairs;
     using namespace detail;
     HWY_DYNAMIC_DISPATCH(all_touches_by)(a, b, b_in_a, executor, pairs);
