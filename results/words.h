@@ -15,6 +15,7 @@ enum class Phase : std::uint8_t {
     cold_build,
     update,
     query,
+    cold_query,
     upload,
     device_build,
     device_query,
@@ -64,10 +65,19 @@ constexpr bool is_of_device(std::string_view executor) {
 
 template <class Enum> struct Words;
 template <> struct Words<Phase> {
-    static constexpr std::array<std::string_view, 12> all{
-        "",         "build",       "cold_build",   "update",
-        "query",    "upload",      "device_build", "device_query",
-        "download", "build+query", "update+query", "cold_build+query"};
+    static constexpr std::array<std::string_view, 13> all{"",
+                                                          "build",
+                                                          "cold_build",
+                                                          "update",
+                                                          "query",
+                                                          "cold_query",
+                                                          "upload",
+                                                          "device_build",
+                                                          "device_query",
+                                                          "download",
+                                                          "build+query",
+                                                          "update+query",
+                                                          "cold_build+query"};
 };
 template <> struct Words<Status> {
     static constexpr std::array<std::string_view, 6> all{

@@ -19,6 +19,8 @@
     X(lattice)                                                                                     \
     X(point_cloud)                                                                                 \
     X(sphere_mesh)                                                                                 \
+    X(smooth_sphere)                                                                               \
+    X(scan_mesh)                                                                                   \
     X(triangle_soup)                                                                               \
     X(sliver_mesh)                                                                                 \
     X(cloth)                                                                                       \

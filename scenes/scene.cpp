@@ -86,6 +86,7 @@ std::uint64_t hash_of(const Scene& scene) {
     add(*state, scene.regions);
     add(*state, scene.spheres);
     add(*state, scene.poses);
+    add(*state, scene.other_copy.vertices);
     if (scene.robot) {
         for (const TriangleMesh& mesh : scene.robot->robot.meshes) {
             add(*state, mesh.vertices);
@@ -315,6 +316,7 @@ Scene make_scene(const SceneSpec& spec) {
                          : read_rays(spec.rays_file);
     if (!spec.poses.empty()) {
         scene.poses = make_poses(spec.poses, scene.mesh, spec.n_poses, spec.seed);
+        scene.other_copy = make_copy(spec.poses, scene.mesh);
         add_params(scene, fmt::format(R"("poses":"{}","n_poses":{})", spec.poses, spec.n_poses));
     }
     if (!spec.motion.empty())

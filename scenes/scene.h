@@ -60,12 +60,18 @@ struct Scene {
     std::vector<Sphere<float>> spheres;
     /// Of a copy of the mesh, in the mesh's frame.
     std::vector<RigidTransform<double>> poses;
+    TriangleMesh
+        other_copy; ///< what stands in the poses if it is not the mesh as it is, else empty
     /// Of a robot: itself. Box i is that of link i in the link's frame.
     std::shared_ptr<const RobotStates> robot;
     Cases cases;             ///< of a hard-case family, else none
     std::string params_json; ///< the generator's parameters as one JSON object
     /// XXH3 of boxes, vertices, indices and rays, then of each case number by number, little-endian
     std::uint64_t content_hash = 0;
+
+    bool has_other_copy() const { return !other_copy.triangles.empty(); }
+    /// What stands in the poses.
+    const TriangleMesh& copy() const { return has_other_copy() ? other_copy : mesh; }
 };
 
 /// A generator: name, human_name, summary and generate(spec) -> Scene with boxes or a mesh, and

@@ -12,5 +12,6 @@ std::vector<ContenderEntry> fcl_meshes();
 std::vector<ContenderEntry> fcl_motions(); ///< of meshes that move
 std::vector<ContenderEntry> fcl_robots();  ///< self-collision
 std::vector<ContenderEntry> cgal_meshes();
+std::vector<ContenderEntry> bullet_meshes();
 
 } // namespace boxwood::bench

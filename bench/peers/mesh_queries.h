@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -15,14 +16,20 @@
 ///     for_each_contact(visit): of the last collide_at; contacts with b1, b2, pos, normal
 ///     depth_of(contact): above 0 where the two overlap
 ///     S, its number
-///     DistanceRequest; distance_at(pose, request, below) -> result with min_distance, b1, b2, -1
-///         where none is nearer than `below`, infinite if it is not given
+///     DistanceRequest; distance_at(pose, request, below) -> result with min_distance,
+///         nearest_points, b1, b2, -1 where none is nearer than `below`, infinite if it is not
+///         given
 ///     apart(triangles, pose): how far two triangles are
 namespace boxwood::bench {
 
 /// A library's vector, of floats or doubles.
 template <class V> Vec3<double> as_doubles(const V& v) {
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+/// Of a result that names triangles.
+template <class Result> PosedDistance::Points points_of(const Result& result) {
+    return {as_doubles(result.nearest_points[0]), as_doubles(result.nearest_points[1])};
 }
 
 template <class Contact> PosedPair posed_pair(std::size_t pose, const Contact& contact) {
@@ -39,6 +46,9 @@ template <class M, class Request, class Answer> class PosedQuery : public M {
         list.clear();
         for (std::size_t i = 0; i < this->n_poses(); ++i)
             append(i, list);
+    }
+    void query_part(Answers& answers, std::size_t part) final {
+        append(part, list_of<Answer>(answers));
     }
 
   protected:
@@ -87,7 +97,7 @@ class LeastDistance final : public PosedQuery<M, typename M::DistanceRequest, Po
         const auto& result = this->distance_at(i, this->request_);
         const auto d = static_cast<double>(result.min_distance);
         const PosedPair pair = posed_pair(i, result);
-        distances.push_back({d, d, d, {pair.a, pair.b}});
+        distances.push_back({d, d, d, {pair.a, pair.b}, points_of(result)});
     }
 };
 
@@ -101,11 +111,14 @@ class WarmDistance final : public PosedQuery<M, typename M::DistanceRequest, Pos
         const Number start =
             distances.empty() ? std::numeric_limits<Number>::max() : this->apart(triangles, i);
         const auto& result = this->distance_at(i, this->request_, start);
-        if (result.b1 >= 0)
+        std::optional<PosedDistance::Points> points; // none where the start is the nearest
+        if (result.b1 >= 0) {
             triangles = {static_cast<std::uint32_t>(result.b1),
                          static_cast<std::uint32_t>(result.b2)};
+            points = points_of(result);
+        }
         const auto d = static_cast<double>(result.min_distance);
-        distances.push_back({d, d, d, triangles});
+        distances.push_back({d, d, d, triangles, points});
     }
 };
 

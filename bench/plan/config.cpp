@@ -106,6 +106,11 @@ Block read_block(const std::shared_ptr<const ConfigReader>& reader,
             reader->fail(cold->source(), "cold_build must be true or false");
         block.cold_build = cold->value_or(false);
     }
+    if (const toml::node* cold = table.get("cold_caches")) {
+        if (!cold->is_boolean())
+            reader->fail(cold->source(), "cold_caches must be true or false");
+        block.cold_caches = cold->value_or(false);
+    }
     if (table.get("isa")) {
         Names known(instruction_sets().begin(), instruction_sets().end());
         known.emplace_back(native);

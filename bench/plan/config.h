@@ -17,6 +17,7 @@ struct Block {
     std::vector<const Task*> tasks;
     std::optional<unsigned> rounds; ///< fewer than those of the sweep: the first ones
     bool cold_build = false;        ///< in a process of its own, too
+    bool cold_caches = false;       ///< each query alone, too, after the caches are flushed
     std::vector<std::string> instruction_sets{""}; ///< that each cell is held to; "": to none
 };
 

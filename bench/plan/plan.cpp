@@ -31,10 +31,12 @@ class Expansion {
             task->expand(block.reader, [&](const SceneSpec& scene, const ContenderEntry& contender,
                                            const std::string& executor, unsigned threads) {
                 for (const std::string& isa : block.instruction_sets)
-                    add_cell(block,
-                             {"", scene, task, contender, executor, threads, block.rounds, isa,
-                              block.cold_build && task->phases() == Phases::build_and_query &&
-                                  !is_device(executor)});
+                    add_cell(
+                        block,
+                        {"", scene, task, contender, executor, threads, block.rounds, isa,
+                         block.cold_build && task->phases() == Phases::build_and_query &&
+                             !is_device(executor),
+                         block.cold_caches && std::ranges::count(task->keys(), "cold_caches") > 0});
             });
     }
 
@@ -52,6 +54,7 @@ class Expansion {
             return;
         }
         cells_[seen->second].cold_build |= cell.cold_build;
+        cells_[seen->second].cold_caches |= cell.cold_caches;
         if (auto& rounds = cells_[seen->second].rounds; rounds && block.rounds)
             rounds = std::max(*rounds, *block.rounds);
         else
@@ -214,16 +217,16 @@ std::string sweep_hash_of(const Plan& plan, std::uint64_t files_hash) {
                     plan.inputs > 1 ? fmt::format(" inputs {}", plan.inputs) : std::string());
     std::vector<std::string> lines;
     for (const PlannedCell& cell : plan.cells)
-        lines.push_back(
-            fmt::format("{} overlaps {} n_rays {}{}{}{}{}{}\n", cell.name, cell.scene.overlaps,
-                        cell.scene.n_rays,
-                        cell.scene.n_points == 0 ? std::string()
-                                                 : fmt::format(" n_points {}", cell.scene.n_points),
-                        cell.scene.n_poses == 0 ? std::string()
-                                                : fmt::format(" n_poses {}", cell.scene.n_poses),
-                        scene_file_text(cell.scene),
-                        cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string(),
-                        cell.cold_build ? " cold_build" : ""));
+        lines.push_back(fmt::format(
+            "{} overlaps {} n_rays {}{}{}{}{}{}{}\n", cell.name, cell.scene.overlaps,
+            cell.scene.n_rays,
+            cell.scene.n_points == 0 ? std::string()
+                                     : fmt::format(" n_points {}", cell.scene.n_points),
+            cell.scene.n_poses == 0 ? std::string()
+                                    : fmt::format(" n_poses {}", cell.scene.n_poses),
+            scene_file_text(cell.scene),
+            cell.rounds ? fmt::format(" rounds {}", *cell.rounds) : std::string(),
+            cell.cold_build ? " cold_build" : "", cell.cold_caches ? " cold_caches" : ""));
     std::ranges::sort(lines); // the order of blocks does not matter
     for (const std::string& line : lines)
         canonical += line;

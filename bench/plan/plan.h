@@ -37,6 +37,7 @@ struct PlannedCell {
     std::optional<unsigned> rounds; ///< only in the first so many of the sweep's
     std::string isa{};              ///< Job::isa
     bool cold_build = false;        ///< whether a first build in a fresh process is timed, too
+    bool cold_caches = false;       ///< whether each query is timed with cold caches, too
 
     bool is_in(unsigned round) const { return !rounds || round < *rounds; }
 };

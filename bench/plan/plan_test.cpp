@@ -85,6 +85,18 @@ TEST(Plan, CellsMayBeTimedColdToo) {
     EXPECT_EQ(plan_of(config + block + "cold_build = true\n").sweep_hash, plan.sweep_hash);
 }
 
+TEST(Plan, QueriesMayBeTimedWithColdCachesToo) {
+    const std::string collide = "[[cells]]\nscene = \"sphere_mesh\"\ntask = \"collide\"\n"
+                                "poses = \"near\"\nbuilders = \"median\"\n";
+    EXPECT_THROW(plan_of(collide + "cold_caches = 1\n"), BadInput);
+    EXPECT_THROW(plan_of(config + "cold_caches = true\n"), BadInput); // no task that takes it
+    const Plan usual = plan_of(collide), plan = plan_of(collide + "cold_caches = true\n");
+    ASSERT_EQ(names_of(plan), names_of(usual));
+    EXPECT_TRUE(plan.cells.at(0).cold_caches && !usual.cells.at(0).cold_caches);
+    EXPECT_NE(plan.sweep_hash, usual.sweep_hash);
+    EXPECT_EQ(plan_of(collide + collide + "cold_caches = true\n").sweep_hash, plan.sweep_hash);
+}
+
 TEST(Plan, EqualCellsCollapse) {
     const std::string block = config.substr(config.find("[[cells]]"));
     EXPECT_EQ(names_of(plan_of(config + block)), names_of(plan_of(config)));
@@ -318,9 +330,9 @@ TEST(Plan, ShippedSweepFilesForTheUsersOwnAreGood) {
         return make_plan(read_text(file), file, overrides).cells.size();
     };
     EXPECT_GE(n_cells("bench/configs/robots.toml"), 2u);
-    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 1u);
+    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 2u);
     overrides.meshes = {"scenes/examples/ball.obj"};
-    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 13u);
+    EXPECT_EQ(n_cells("bench/configs/poses.toml"), 14u);
 }
 
 TEST(Order, IsASeededPermutationOfAllCells) {

@@ -80,16 +80,42 @@ void CellTimer::query(benchmark::State& state, const Timing& timing) {
     if (task.hash(*answers_) != timing.checked_hash)
         samples.back().flags |= results::wrong_answer;
     add_device_samples();
+    if (timing.cell->cold_caches)
+        add_cold_query(timing);
     finish();
 }
 
 void CellTimer::add_device_samples() {
     for (const DeviceTime& part : contender_->device_times(*answers_)) {
-        results::Sample& sample = device_samples.emplace_back(samples.back());
+        results::Sample& sample = own_samples.emplace_back(samples.back());
         sample.phase = part.phase;
         sample.iterations = 1;
         sample.wall_ns = part.ns;
     }
+}
+
+void CellTimer::add_cold_query(const Timing& timing) {
+    using Clock = std::chrono::steady_clock;
+    const Task& task = *timing.cell->task;
+    const std::uint64_t n = task.n_queries(scene_of(timing.scene));
+    if (!flush_)
+        flush_.emplace(read_machine(""));
+    answers_ = task.make_answers();
+    answers_->reserve(timing.answers);
+    Clock::duration time{};
+    for (std::uint64_t part = 0; part < n; ++part) {
+        (*flush_)();
+        const Clock::time_point begin = Clock::now();
+        contender_->query_part(*answers_, part);
+        time += Clock::now() - begin;
+    }
+    results::Sample& sample = own_samples.emplace_back(samples.back());
+    sample.phase = Phase::cold_query;
+    sample.iterations = 1;
+    sample.wall_ns = std::chrono::duration<double, std::nano>(time).count();
+    sample.cpu_ns = results::missing;
+    if (task.hash(*answers_) != timing.checked_hash)
+        sample.flags |= results::wrong_answer;
 }
 
 void CellTimer::frames(benchmark::State& state, const Timing& timing) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/io/progress.h"
+#include "bench/machine/caches.h"
 #include "bench/plan/plan.h"
 #include "bench/running/calibration.h"
 #include "bench/running/play.h"
@@ -50,7 +51,8 @@ class CellTimer {
     void take(const benchmark::BenchmarkReporter::Run& run);
 
     std::vector<results::Sample> samples;
-    std::vector<results::Sample> device_samples; ///< parts of others, by a device's clock
+    /// By other clocks than google-benchmark's: parts of others on a device, and cold queries.
+    std::vector<results::Sample> own_samples;
     std::vector<results::FrameRow> frame_rows;
     std::vector<results::EffectRow> effects;
 
@@ -59,6 +61,8 @@ class CellTimer {
     void finish();
     void start_sample(const Timing& timing, results::Phase phase);
     void add_device_samples();
+    /// Each of the task's queries alone, after the caches are flushed; the sum is a sample.
+    void add_cold_query(const Timing& timing);
     void time_passes(benchmark::State& state, const Timing& timing, Frames* frames,
                      std::span<FrameTime> times);
     void add_frame_rows(const Timing& timing, std::span<const FrameTime> times, double passes);
@@ -71,6 +75,7 @@ class CellTimer {
     unsigned round_;
     std::map<std::string, Scene> scenes_;
     std::map<std::string, Frames> frames_;
+    std::optional<CacheFlush> flush_;
     std::optional<InstructionSetLimit> instruction_set_; ///< of the contender
     std::unique_ptr<Contender> contender_;
     std::unique_ptr<Answers> answers_;

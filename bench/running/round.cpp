@@ -204,7 +204,7 @@ results::Results run_round(const Plan& plan, const results::Results& prepared, u
         throw std::runtime_error("google-benchmark did not run every cell of the round");
     shard.steal_ticks = steal_ticks() - steal_before;
     out.shards.push_back(shard);
-    for (const std::vector<results::Sample>& samples : {timer.samples, timer.device_samples})
+    for (const std::vector<results::Sample>& samples : {timer.samples, timer.own_samples})
         out.samples.insert(out.samples.end(), samples.begin(), samples.end());
     out.frames = std::move(timer.frame_rows);
     out.effects = std::move(timer.effects);

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,11 @@ class Contender {
     virtual void build() = 0;
     /// Timed: answers the job into answers of its task, which are cleared. Needs a build before it.
     virtual void query(Answers& answers) = 0;
+    /// Timed, of tasks that take cold_caches: appends the answer to one of Task::n_queries, as
+    /// query does for all of them.
+    virtual void query_part(Answers& /*answers*/, std::size_t /*part*/) {
+        throw std::logic_error("it does not answer one query alone");
+    }
     /// Untimed: brings the answers of the last query to the host if they stayed on a device.
     virtual void fetch(Answers& /*answers*/) {}
     /// Untimed, of one that runs on a device from host to host: one build and query by its parts.

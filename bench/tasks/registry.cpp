@@ -28,6 +28,7 @@
     X(contacts)                                                                                    \
     X(continuous)                                                                                  \
     X(robot_self)                                                                                  \
+    X(robot_distance)                                                                              \
     X(scene_queries)                                                                               \
     X(triangle_triangle)                                                                           \
     X(triangle_distance)                                                                           \

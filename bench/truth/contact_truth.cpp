@@ -55,7 +55,7 @@ class ContactTruth final : public Truth {
           size_(size_of(mesh_)) {
         for (std::uint32_t i = 0; i < scene.poses.size(); ++i)
             for (const Pair p :
-                 touching_pairs(mesh_, triangles_at(scene.mesh, scene.poses[i]), threads))
+                 touching_pairs(mesh_, triangles_at(scene.copy(), scene.poses[i]), threads))
                 touching_.push_back({i, p.a, p.b});
     }
 
@@ -109,8 +109,9 @@ class ContactTruth final : public Truth {
         make_executor("tbb", threads_)->for_each(got.size(), [&](std::size_t i) {
             const PosedPair& of = got[i].triangles;
             if (touch(of))
-                faults[i] = fault_of(got[i], mesh_[of.a],
-                                     triangle_at(scene_.mesh, of.b, scene_.poses[of.pose]), slack);
+                faults[i] =
+                    fault_of(got[i], mesh_[of.a],
+                             triangle_at(scene_.copy(), of.b, scene_.poses[of.pose]), slack);
         });
         for (std::size_t i = 0; i < got.size(); ++i)
             if (!faults[i].empty())

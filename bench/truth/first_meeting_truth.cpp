@@ -109,7 +109,8 @@ class Way {
 class Motions {
   public:
     explicit Motions(const Scene& scene)
-        : scene_(scene), mesh_(triangles_at(scene.mesh, {})), still_(mesh_) {
+        : scene_(scene), copy_(triangles_at(scene.copy(), {})),
+          still_(triangles_at(scene.mesh, {})), copy_at_rest_(copy_) {
         for (std::size_t i = 0; i < scene.poses.size(); ++i)
             ways_.emplace_back(scene.poses[i], scene.poses[next_pose(i, scene.poses.size())],
                                scene.spec.motion == "screw");
@@ -117,16 +118,16 @@ class Motions {
 
     std::size_t size() const { return ways_.size(); }
     NearestTriangles::Least least(std::size_t i, double t) const {
-        NearestTriangles copy = still_;
-        copy.move(triangles_at(scene_.mesh, ways_[i].at(t)));
+        NearestTriangles copy = copy_at_rest_;
+        copy.move(triangles_at(scene_.copy(), ways_[i].at(t)));
         return still_.to(copy);
     }
-    double greatest_speed(std::size_t i) const { return ways_[i].greatest_speed(mesh_); }
+    double greatest_speed(std::size_t i) const { return ways_[i].greatest_speed(copy_); }
 
   private:
     const Scene& scene_;
-    PosedTriangles mesh_;
-    NearestTriangles still_;
+    PosedTriangles copy_;
+    NearestTriangles still_, copy_at_rest_;
     std::vector<Way> ways_;
 };
 

@@ -1,6 +1,7 @@
 #include "bench/truth/mesh_pair_truth.h"
 
 #include "bench/tasks/detail/mesh_pair_answers.h"
+#include "bench/truth/judging/witnesses.h"
 #include "bench/truth/posed_triangles.h"
 #include "kernels/oracle/nearest.h"
 
@@ -18,7 +19,7 @@ class TouchTruth final : public Truth {
         const PosedTriangles mesh = triangles_at(scene.mesh, {});
         for (std::uint32_t i = 0; i < scene.poses.size(); ++i) {
             const std::vector<Pair> pairs =
-                touching_pairs(mesh, triangles_at(scene.mesh, scene.poses[i]), threads);
+                touching_pairs(mesh, triangles_at(scene.copy(), scene.poses[i]), threads);
             touches_.push_back(!pairs.empty());
             if (wants_pairs)
                 for (const Pair pair : pairs)
@@ -80,6 +81,12 @@ class TouchTruth final : public Truth {
 /// What floats may be off by, poses rounded to them included, of the distance and the size.
 constexpr double float_slack = 0x1p-20;
 
+/// Of closest points without a promise.
+constexpr WitnessErrors usual_witnesses(bool is_float) {
+    const double error = is_float ? float_slack : 0x1p-40;
+    return {error, error};
+}
+
 class MeshDistanceTruth final : public Truth {
   public:
     MeshDistanceTruth(const Scene& scene, unsigned threads)
@@ -115,14 +122,15 @@ class MeshDistanceTruth final : public Truth {
             if (check.witness.empty())
                 check.witness = fmt::format("pose {}: {}", i, what);
         };
-        if (got.triangles.a >= mesh_.size() || got.triangles.b >= mesh_.size())
+        if (got.triangles.a >= mesh_.size() || got.triangles.b >= scene_.copy().triangles.size())
             return complain(check.missing, "no triangles are named");
         if (!(std::isfinite(got.hi) && got.lo <= got.distance && got.distance <= got.hi))
             return complain(check.missing,
                             fmt::format("{} is no distance between its bounds {} and {}",
                                         got.distance, got.lo, got.hi));
-        const Triangle<double> b = triangle_at(scene_.mesh, got.triangles.b, scene_.poses[i]);
-        const double named = std::sqrt(oracle::nearest(mesh_[got.triangles.a], b).squared.get_d());
+        const Triangle<double> b = triangle_at(scene_.copy(), got.triangles.b, scene_.poses[i]);
+        const mpq_class squared = oracle::nearest(mesh_[got.triangles.a], b).squared;
+        const double named = std::sqrt(squared.get_d());
         const auto [truth, lo] = least_[i];
         const double error = std::abs(got.distance - truth);
         check.max_abs_err = std::max(check.max_abs_err, error);
@@ -148,7 +156,22 @@ class MeshDistanceTruth final : public Truth {
             ++check.bound_violations;
             complain(check.extra, fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi,
                                               contender.relative_width));
-        }
+        } else if (const std::string fault = fault_of_points(got, b, sgn(squared) == 0, contender);
+                   !fault.empty())
+            complain(check.extra, fault);
+    }
+
+    /// named_touch: whether the triangles that are named do.
+    std::string fault_of_points(const PosedDistance& got, const Triangle<double>& b,
+                                bool named_touch, const ContenderEntry& contender) const {
+        const bool is_certified = contender.promise == Promise::certified;
+        if (!got.points)
+            return is_certified ? "no closest points are given" : "";
+        const double width = is_certified ? 0x1p-32 * got.distance : 0;
+        return witness_fault(got.points->on_mesh, got.points->on_copy, mesh_[got.triangles.a], b,
+                             got.distance - width, got.distance + width,
+                             is_certified ? promised_witnesses(named_touch)
+                                          : usual_witnesses(contender.precision == "f32"));
     }
 
     const Scene& scene_;

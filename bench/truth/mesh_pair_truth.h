@@ -12,7 +12,9 @@ std::unique_ptr<Truth> make_touch_truth(const Scene& scene, unsigned threads);
 std::unique_ptr<Truth> make_touching_truth(const Scene& scene, unsigned threads);
 
 /// How far they are apart: the distance of the triangles that were named, in rational arithmetic,
-/// and whether any pair is nearer (nearest_triangles.h).
+/// and whether any pair is nearer (nearest_triangles.h). Closest points, if they are given, lie on
+/// those triangles, as far apart as is said: to 2^-44 of the largest coordinate where distances are
+/// certified, which must have points (distance_kernel.h); of others to 2^-40, by floats 2^-20.
 std::unique_ptr<Truth> make_mesh_distance_truth(const Scene& scene, unsigned threads);
 /// Whether they are at most a tolerance apart.
 std::unique_ptr<Truth> make_within_truth(const Scene& scene, double tolerance, unsigned threads);

@@ -155,9 +155,24 @@ class NearestTriangles::Search {
             for (std::uint32_t l = b.begin; l < b.end; ++l) {
                 const Triangle<double>& s = a_.triangles_[a_.order_[k]];
                 const Triangle<double>& t = b_.triangles_[b_.order_[l]];
-                if (may_be_nearer(bound(s, t, s.bounds(), t.bounds())))
+                if (may_be_nearer(bound(s, t, s.bounds(), t.bounds())) &&
+                    may_be_nearer(gap_along_normals(s, t)))
                     take(oracle::nearest(s, t));
             }
+    }
+
+    /// A bound, too: where surfaces are parallel it leaves out what boxes do not.
+    double gap_along_normals(const Triangle<double>& s, const Triangle<double>& t) const {
+        double greatest = 0;
+        for (const Triangle<double>* of : {&s, &t}) {
+            const Vec3<double> normal = cross(of->b - of->a, of->c - of->a);
+            const double size = length(normal);
+            if (!(size > 0x1p-500 && size < 0x1p500))
+                continue;
+            const Vec3<double> d = normal * ((1 - 0x1p-48) / size);
+            greatest = std::max(greatest, gap(reach(s, d), reach(t, d)) - rounding_);
+        }
+        return greatest;
     }
 
     void take(const oracle::Nearest& nearest) {

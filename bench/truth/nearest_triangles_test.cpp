@@ -60,6 +60,35 @@ TEST(NearestTriangles, AreThoseOfAllPairs) {
     EXPECT_LT(touching, 5);
 }
 
+/// A rough sheet of 2 (n - 1)^2 triangles, one unit wide, at a height.
+Triangles sheet(int n, double height, double roughness, std::mt19937& random) {
+    std::uniform_real_distribution<double> rough(height - roughness, height + roughness);
+    std::vector<Vec3<double>> points;
+    for (int i = 0; i < n * n; ++i)
+        points.push_back({i % n / (n - 1.), i / n / (n - 1.), rough(random)});
+    Triangles all;
+    for (int y = 0; y + 1 < n; ++y)
+        for (int x = 0; x + 1 < n; ++x) {
+            const auto at = [&](int dx, int dy) {
+                return points[static_cast<std::size_t>((y + dy) * n + x + dx)];
+            };
+            all.push_back({at(0, 0), at(1, 0), at(1, 1)});
+            all.push_back({at(0, 0), at(1, 1), at(0, 1)});
+        }
+    return all;
+}
+
+TEST(NearestTriangles, OfParallelSheetsAreThoseOfAllPairs) {
+    std::mt19937 random(5);
+    for (const double roughness : {0., 1e-5, .003}) {
+        const Triangles a = sheet(6, 0, roughness, random), b = sheet(6, .01, roughness, random);
+        const double expected = brute_force(a, b);
+        const NearestTriangles::Least least = NearestTriangles(a).to(NearestTriangles(b));
+        EXPECT_LE(std::abs(least.distance - expected), 0x1p-40 * expected);
+        EXPECT_LE(least.lo, expected * (1 + 0x1p-50));
+    }
+}
+
 TEST(NearestTriangles, AreThoseOfWhereTheyAreNow) {
     std::mt19937 random(4);
     const Triangles a = soup(30, .1, {}, random), b = soup(30, .1, {3, 0, 0}, random);

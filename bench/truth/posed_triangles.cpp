@@ -47,10 +47,11 @@ std::vector<Pair> touching_pairs(const PosedTriangles& a, const PosedTriangles& 
 
 std::vector<NearestTriangles::Least> least_distances(const Scene& scene, unsigned threads) {
     const NearestTriangles still(triangles_at(scene.mesh, {}));
+    const NearestTriangles copy_at_rest(triangles_at(scene.copy(), {}));
     std::vector<NearestTriangles::Least> least(scene.poses.size());
     make_executor("tbb", threads)->for_each(least.size(), [&](std::size_t i) {
-        NearestTriangles copy = still;
-        copy.move(triangles_at(scene.mesh, scene.poses[i]));
+        NearestTriangles copy = copy_at_rest;
+        copy.move(triangles_at(scene.copy(), scene.poses[i]));
         least[i] = still.to(copy);
     });
     return least;

@@ -11,4 +11,10 @@ namespace boxwood::bench {
 /// Nothing of trees/world/ is in it.
 std::unique_ptr<Truth> make_robot_truth(const Scene& scene, unsigned threads);
 
+/// How far apart the two nearest links are that must not touch, and which they are: between the
+/// least distances of the polyhedra in the links and of those around them (nearest_triangles.h), up
+/// to 2^-44 of the largest coordinate, by which poses are rounded. The named links must be as far
+/// apart as is said, and [lo, hi] no wider than 2^-20 of hi.
+std::unique_ptr<Truth> make_robot_distance_truth(const Scene& scene, unsigned threads);
+
 } // namespace boxwood::bench

@@ -22,6 +22,8 @@ struct PoseKind {
     bool is_path = false; ///< each is a degree on from the one before
     /// Not turned, apart where the mesh is thinnest, in parts of its greatest width.
     bool is_parallel = false;
+    /// Not 1: the copy is so much larger than the mesh, and around it.
+    double scale = 1;
 };
 constexpr PoseKind kinds[] = {
     {"apart", "half its width away from the mesh", .5},
@@ -31,6 +33,10 @@ constexpr PoseKind kinds[] = {
     {"along", "a hundredth of its width away, each a degree on from the one before", .01, true},
     {"parallel", "not turned, a hundredth of its width away from its flattest side", .01, false,
      true},
+    {"nested", "around the mesh, not turned: a hundredth larger, and shifted by less", .1, false,
+     false, 1.01},
+    {"nested_closely", "around the mesh, not turned: a thousandth larger, and shifted by less", .1,
+     false, false, 1.001},
 };
 
 constexpr PoseKindEntry paths[] = {
@@ -60,6 +66,18 @@ Vec middle_of(const TriangleMesh& mesh) {
     return 0.5 * (box.min + box.max);
 }
 
+/// The copy is shifted by less than what it is larger by.
+RigidTransform<double> nested_pose(const TriangleMesh& mesh, const PoseKind& of, Draws& draws) {
+    double thinnest = std::numeric_limits<double>::infinity();
+    for (const Vec along : {Vec{1, 0, 0}, Vec{0, 1, 0}, Vec{0, 0, 1}}) {
+        const Extent extent = extent_along(along, mesh);
+        thinnest = std::min(thinnest, extent.greatest - extent.least);
+    }
+    RigidTransform<double> pose;
+    pose.translation = (of.gap * (of.scale - 1) * thinnest / 2) * draws.in_ball();
+    return pose;
+}
+
 /// The copy is shifted along the mesh, too, by up to a tenth.
 RigidTransform<double> parallel_pose(const TriangleMesh& mesh, double gap, Draws& draws) {
     int thinnest = 0, widest = 0;
@@ -79,6 +97,11 @@ RigidTransform<double> parallel_pose(const TriangleMesh& mesh, double gap, Draws
         pose.translation[axis] = axis == thinnest ? widths[axis] + gap * widths[widest]
                                                   : .1 * (2 * draws.uniform() - 1) * widths[axis];
     return pose;
+}
+
+const PoseKind& kind_named(std::string_view name) {
+    check_pose_kind(name);
+    return *std::ranges::find(kinds, name, &PoseKind::name);
 }
 
 } // namespace
@@ -122,10 +145,9 @@ void check_motion_path(std::string_view path) {
 
 std::vector<RigidTransform<double>> make_poses(std::string_view kind, const TriangleMesh& mesh,
                                                std::size_t n, std::uint64_t seed) {
-    check_pose_kind(kind);
     if (mesh.triangles.empty())
         throw std::invalid_argument("poses: the mesh has no triangles to place a copy of");
-    const PoseKind& of = *std::ranges::find(kinds, kind, &PoseKind::name);
+    const PoseKind& of = kind_named(kind);
     // About a degree: rational, so that every machine gets the same bits.
     constexpr double t = 1. / 115, sine = 2 * t / (1 + t * t), cosine = (1 - t * t) / (1 + t * t);
     Rotation turned{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, swung = turned;
@@ -135,8 +157,9 @@ std::vector<RigidTransform<double>> make_poses(std::string_view kind, const Tria
     for (std::size_t i = 0; i < n; ++i) {
         Draws draws = numbers.item(of.is_path ? 0 : i);
         RigidTransform<double>& pose = poses[i];
-        if (of.is_parallel) {
-            pose = parallel_pose(mesh, of.gap, draws);
+        if (of.is_parallel || of.scale != 1) {
+            pose =
+                of.is_parallel ? parallel_pose(mesh, of.gap, draws) : nested_pose(mesh, of, draws);
             continue;
         }
         pose.rotation = rotation_of(draws);
@@ -160,6 +183,17 @@ std::vector<RigidTransform<double>> make_poses(std::string_view kind, const Tria
             pose.translation + (own.greatest - (copy.least + between) + of.gap * width) * way;
     }
     return poses;
+}
+
+TriangleMesh make_copy(std::string_view kind, const TriangleMesh& mesh) {
+    const PoseKind& of = kind_named(kind);
+    if (of.scale == 1)
+        return {};
+    TriangleMesh copy = mesh;
+    const Vec middle = middle_of(mesh);
+    for (Vec3<float>& v : copy.vertices)
+        v = static_cast<Vec3<float>>(middle + of.scale * (Vec(v) - middle));
+    return copy;
 }
 
 } // namespace boxwood

@@ -37,4 +37,8 @@ Rotation rotation_of(Draws& draws);
 std::vector<RigidTransform<double>> make_poses(std::string_view kind, const TriangleMesh& mesh,
                                                std::size_t n, std::uint64_t seed);
 
+/// What stands in such poses, if it is not the mesh as it is, else an empty mesh: the mesh scaled
+/// from the middle of its box, rounded to floats.
+TriangleMesh make_copy(std::string_view kind, const TriangleMesh& mesh);
+
 } // namespace boxwood

@@ -58,6 +58,34 @@ TEST(ScenePoses, ParallelSheetsLieOnOneAnother) {
     EXPECT_NE(poses[0], poses[1]);
 }
 
+TEST(ScenePoses, NestedCopiesAreLargerAndAround) {
+    for (const auto& [kind, larger] : {std::pair{"nested", .01}, {"nested_closely", .001}}) {
+        const Scene scene =
+            make_scene({.generator = "sphere_mesh", .n = 500, .poses = kind, .n_poses = 4});
+        ASSERT_TRUE(scene.has_other_copy());
+        EXPECT_EQ(scene.copy().triangles, scene.mesh.triangles);
+        for (const auto& pose : scene.poses) {
+            EXPECT_EQ(pose.rotation, (RigidTransform<double>{}.rotation));
+            EXPECT_GT(length(pose.translation), 0);
+            EXPECT_LT(length(pose.translation), .12 * larger);
+        }
+        Aabb<double> box, box_of_copy;
+        for (std::size_t i = 0; i < scene.mesh.triangles.size(); ++i) {
+            box = merge(box, Aabb<double>(scene.mesh.triangle(i).bounds()));
+            box_of_copy = merge(box_of_copy, Aabb<double>(scene.copy().triangle(i).bounds()));
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            const double width = box.max[axis] - box.min[axis];
+            EXPECT_NEAR(box.min[axis] - box_of_copy.min[axis], larger / 2 * width, 1e-6);
+            EXPECT_NEAR(box_of_copy.max[axis] - box.max[axis], larger / 2 * width, 1e-6);
+        }
+    }
+    const Scene same =
+        make_scene({.generator = "sphere_mesh", .n = 500, .poses = "near", .n_poses = 4});
+    EXPECT_FALSE(same.has_other_copy());
+    EXPECT_EQ(&same.copy(), &same.mesh);
+}
+
 TEST(ScenePoses, DependOnSeedAndNumberAlone) {
     const Scene scene = make_scene({.generator = "sphere_mesh", .n = 100});
     const auto few = make_poses("near", scene.mesh, 3, 1),

@@ -10,7 +10,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import dropin_times, picture, published_tables, python_times, recomputed, registry
+from . import dropin_times, marks, picture, published_tables, python_times, recomputed, registry
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
 from .run import read
@@ -56,6 +56,7 @@ ALL = (
     Published("errors", "narrow", "What accuracy costs: the distance of two meshes, query alone, all poses together",
               published_tables.by_error, noise_tasks=("distance",)),
     races("shapes", "shapes", "Convex shape against convex shape", ("shape_collide", "shape_distance", "signed_shape_distance")),
+    races("robots", "robots", "Self-collision of robots, all states together", ("robot_self",)),
     races("moving", "dynamic", "Moving boxes, update and query of a frame", ("moving_pairs",)),
     Published("effects", "effects", "All stages over the required ones, ours against ourselves", against_ourselves),
     Published("accuracy", "accuracy", "Triangle against triangle: what a call costs and how often it is wrong",
@@ -216,8 +217,18 @@ def dropin_block(root, up, table=dropin_times.table):
             f"--meshes {meshes}".rstrip() + "`.*\n")
 
 
+def marks_block(root, up):
+    """Each mark of the work on meshes beside what the files say, reached or not."""
+    files = {one.sweep: one.file(root) for one in ALL if one.file(root).exists()}
+    of = marks.read(root / marks.FILE)
+    runs = {sweep: read(files[sweep]) for sweep in dict.fromkeys(mark.sweep for mark in of) if sweep in files}
+    dropin = dropin_times.read(root / DROPIN) if (root / DROPIN).exists() else None
+    return f"{markdown(marks.table(of, runs, dropin))}\n\n*Marks: [`{marks.FILE.name}`]({up}{marks.FILE}).*\n"
+
+
 BLOCKS = {  # marker -> (root, up) -> text
     "summary": summary_block,
+    "marks": marks_block,
     "python": python_block,
     "dropin": dropin_block,
     "worlds": lambda root, up: dropin_block(root, up, dropin_times.worlds_table),

@@ -67,7 +67,7 @@ def file_of(root, sweep, made, toml=None, **env):
 def root(tmp_path):
     """A repository of which README is all that was published."""
     shutil.copytree(ROOT / "bench" / "configs", tmp_path / "bench" / "configs")
-    (tmp_path / "results" / "published").mkdir(parents=True)
+    shutil.copytree(ROOT / "results" / "published", tmp_path / "results" / "published", ignore=shutil.ignore_patterns("*.[!t]*"))  # marks.toml
     for page in published.PAGES:
         text = re.sub(r"(<!-- published: \w+ -->\n).*?(<!-- /published)", r"\1\2", (ROOT / page).read_text(), flags=re.S)
         (tmp_path / page).write_text(text)

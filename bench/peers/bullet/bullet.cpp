@@ -1,6 +1,7 @@
 #include "bench/peers/answering.h"
 #include "bench/peers/bullet/bullet_volume.h"
 #include "bench/peers/kernel_peers.h"
+#include "bench/peers/mesh_peers.h"
 #include "bench/peers/point_peers.h"
 #include "scenes/moving/frames.h"
 
@@ -186,6 +187,8 @@ Peer bullet_peer() {
     for (ContenderEntry& e : bullet_points())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : bullet_kernels())
+        peer.contenders.push_back(std::move(e));
+    for (ContenderEntry& e : bullet_meshes())
         peer.contenders.push_back(std::move(e));
     for (ContenderEntry& e : bullet_shapes())
         peer.contenders.push_back(std::move(e));

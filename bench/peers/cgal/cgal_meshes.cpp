@@ -59,11 +59,13 @@ class FirstTouch final : public TriangleTree {
     void query(Answers& answers) override {
         std::vector<std::uint8_t>& touches = list_of<std::uint8_t>(answers);
         touches.clear();
-        for (const RigidTransform<double>& pose : scene_.poses) {
-            const Corners copy = corners_at(scene_.mesh, pose);
-            touches.push_back(std::ranges::any_of(
-                copy, [&](const MeshKernel::Triangle_3& t) { return tree_.do_intersect(t); }));
-        }
+        for (std::size_t i = 0; i < scene_.poses.size(); ++i)
+            query_part(answers, i);
+    }
+    void query_part(Answers& answers, std::size_t part) override {
+        const Corners copy = corners_at(scene_.copy(), scene_.poses[part]);
+        list_of<std::uint8_t>(answers).push_back(std::ranges::any_of(
+            copy, [&](const MeshKernel::Triangle_3& t) { return tree_.do_intersect(t); }));
     }
 };
 
@@ -74,7 +76,7 @@ class AllTouches final : public TriangleTree {
         std::vector<PosedPair>& touching = list_of<PosedPair>(answers);
         touching.clear();
         for (std::uint32_t i = 0; i < scene_.poses.size(); ++i) {
-            const Corners copy = corners_at(scene_.mesh, scene_.poses[i]);
+            const Corners copy = corners_at(scene_.copy(), scene_.poses[i]);
             for (std::uint32_t b = 0; b < copy.size(); ++b) {
                 found_.clear();
                 tree_.all_intersected_primitives(copy[b], std::back_inserter(found_));

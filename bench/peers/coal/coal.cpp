@@ -198,7 +198,8 @@ ContenderEntry meshes(const MeshRow& of) {
     ContenderEntry e = row(
         of.name,
         fmt::format("BVHModel of {}, {}", volumes[static_cast<std::size_t>(of.volume)], of.how),
-        fmt::format("build = one model, which stands for the mesh and for its copy; query = {}, "
+        fmt::format("build = one model, which stands for the mesh and for its copy (two where that "
+                    "is larger); query = {}, "
                     "pose after pose, at the same model; {}; doubles, equal to the scene's floats; "
                     "one thread",
                     of.how,

@@ -22,20 +22,24 @@ template <class Volume> class MeshModels : public Contender {
     using CollisionRequest = coal::CollisionRequest;
     using DistanceRequest = coal::DistanceRequest;
 
-    explicit MeshModels(const Job& job) : mesh_(job.scene->mesh) {
+    explicit MeshModels(const Job& job)
+        : mesh_(job.scene->mesh), other_mesh_(job.scene->other_copy) {
         for (const RigidTransform<double>& pose : job.scene->poses)
             poses_.push_back(transform_of(pose));
     }
     void build() override {
         model_.reset();
+        other_.reset();
         model_ = mesh_.model<Volume>();
+        if (!other_mesh_.triangles.empty())
+            other_ = other_mesh_.model<Volume>();
     }
 
   protected:
     std::size_t n_poses() const { return poses_.size(); }
     std::size_t collide_at(std::size_t i, const CollisionRequest& request) {
         touches_.clear();
-        return coal::collide(model_.get(), in_place_, model_.get(), poses_[i], request, touches_);
+        return coal::collide(model_.get(), in_place_, &copy(), poses_[i], request, touches_);
     }
     template <class Visit> void for_each_contact(Visit visit) const {
         for (const coal::Contact& contact : touches_.getContacts())
@@ -47,24 +51,26 @@ template <class Volume> class MeshModels : public Contender {
                                             S below = std::numeric_limits<S>::max()) {
         nearest_.clear();
         nearest_.min_distance = below;
-        coal::distance(model_.get(), in_place_, model_.get(), poses_[i], request, nearest_);
+        coal::distance(model_.get(), in_place_, &copy(), poses_[i], request, nearest_);
         return nearest_;
     }
     S apart(Pair triangles, std::size_t i) const {
         coal::Vec3s a[3], b[3], on_a, on_b;
         for (int k = 0; k < 3; ++k) {
             a[k] = (*model_->vertices)[(*model_->tri_indices)[triangles.a][k]];
-            b[k] = poses_[i].transform((*model_->vertices)[(*model_->tri_indices)[triangles.b][k]]);
+            b[k] = poses_[i].transform((*copy().vertices)[(*copy().tri_indices)[triangles.b][k]]);
         }
         return std::sqrt(coal::TriangleDistance::sqrTriDistance(a, b, on_a, on_b));
     }
 
   private:
-    MeshOfCoal mesh_;
+    const coal::BVHModel<Volume>& copy() const { return other_ ? *other_ : *model_; }
+
+    MeshOfCoal mesh_, other_mesh_;
     std::vector<coal::Transform3s> poses_;
     coal::CollisionResult touches_;
     coal::DistanceResult nearest_;
-    std::shared_ptr<coal::BVHModel<Volume>> model_;
+    std::shared_ptr<coal::BVHModel<Volume>> model_, other_; ///< other_: of a copy of its own
     const coal::Transform3s in_place_;
 };
 

@@ -45,8 +45,8 @@ template <class Volume> class FirstMeetings final : public MeshModels<Volume> {
             const auto motion =
                 motion_between(this->poses_[i], this->poses_[next_pose(i, n)], is_screw_);
             fcl::ContinuousCollisionResultd result;
-            fcl::continuousCollide<double>(this->model_.get(), &still, this->model_.get(),
-                                           motion.get(), request_, result);
+            fcl::continuousCollide<double>(this->model_.get(), &still, &this->copy(), motion.get(),
+                                           request_, result);
             const double t = result.is_collide ? result.time_of_contact : 1;
             meetings.push_back({t, t, result.is_collide ? Meets::yes : Meets::no});
         }
@@ -66,8 +66,9 @@ template <class Volume> class SteppedMeetings final : public MeshModels<Volume> 
         : MeshModels<Volume>(job),
           path_(job.scene->spec.motion == "screw" ? MotionPath::screw : MotionPath::linear),
           tolerance_(meeting_tolerance(job.scene->mesh)) {
-        for (const Aabb<float>& box : job.scene->boxes)
-            box_.extend(box);
+        const TriangleMesh& copy = job.scene->copy();
+        for (std::size_t i = 0; i < copy.triangles.size(); ++i)
+            box_.extend(copy.triangle(i).bounds());
     }
     void query(Answers& answers) override {
         std::vector<FirstMeeting>& meetings = list_of<FirstMeeting>(answers);
@@ -96,7 +97,7 @@ template <class Volume> class SteppedMeetings final : public MeshModels<Volume> 
 
     MotionPath path_;
     double tolerance_;
-    Aabb<float> box_; ///< of the mesh
+    Aabb<float> box_; ///< of the copy
     fcl::DistanceRequest<S> request_{false};
 };
 

@@ -54,26 +54,33 @@ template <class Volume> class MeshModels : public Contender {
     using CollisionRequest = fcl::CollisionRequest<S>;
     using DistanceRequest = fcl::DistanceRequest<S>;
 
-    explicit MeshModels(const Job& job) : scene_(*job.scene), mesh_(scene_.mesh) {
+    explicit MeshModels(const Job& job)
+        : scene_(*job.scene), mesh_(scene_.mesh), other_mesh_(scene_.other_copy) {
         for (const RigidTransform<double>& pose : scene_.poses)
             poses_.push_back(transform_of<S>(pose));
     }
     void build() override {
         model_.reset();
+        other_.reset();
         model_ = std::make_unique<fcl::BVHModel<Volume>>();
         mesh_.build(*model_);
+        if (!scene_.has_other_copy())
+            return;
+        other_ = std::make_unique<fcl::BVHModel<Volume>>();
+        other_mesh_.build(*other_);
     }
 
   protected:
     const Scene& scene_;
     std::vector<fcl::Transform3<S>> poses_;
-    std::unique_ptr<fcl::BVHModel<Volume>> model_;
+    std::unique_ptr<fcl::BVHModel<Volume>> model_, other_; ///< other_: of a copy of its own
 
+    const fcl::BVHModel<Volume>& copy() const { return other_ ? *other_ : *model_; }
     std::size_t n_poses() const { return poses_.size(); }
     std::size_t collide_at(std::size_t i, const CollisionRequest& request) {
         touches_.clear();
-        return fcl::collide<S>(model_.get(), fcl::Transform3<S>::Identity(), model_.get(),
-                               poses_[i], request, touches_);
+        return fcl::collide<S>(model_.get(), fcl::Transform3<S>::Identity(), &copy(), poses_[i],
+                               request, touches_);
     }
     template <class Visit> void for_each_contact(Visit visit) const {
         for (std::size_t k = 0; k < touches_.numContacts(); ++k)
@@ -88,7 +95,7 @@ template <class Volume> class MeshModels : public Contender {
                                               S below = std::numeric_limits<S>::max()) {
         nearest_.clear();
         nearest_.min_distance = below;
-        fcl::distance<S>(model_.get(), fcl::Transform3<S>::Identity(), model_.get(), pose, request,
+        fcl::distance<S>(model_.get(), fcl::Transform3<S>::Identity(), &copy(), pose, request,
                          nearest_);
         return nearest_;
     }
@@ -100,13 +107,13 @@ template <class Volume> class MeshModels : public Contender {
         fcl::Vector3<S> a[3], b[3], on_a, on_b;
         for (int k = 0; k < 3; ++k) {
             a[k] = model_->vertices[model_->tri_indices[triangles.a][k]];
-            b[k] = model_->vertices[model_->tri_indices[triangles.b][k]];
+            b[k] = copy().vertices[copy().tri_indices[triangles.b][k]];
         }
         return fcl::detail::TriangleDistance<S>::triDistance(a, b, poses_[i], on_a, on_b);
     }
 
   private:
-    MeshOfFcl<S> mesh_;
+    MeshOfFcl<S> mesh_, other_mesh_;
     fcl::CollisionResult<S> touches_;
     fcl::DistanceResult<S> nearest_;
 };
@@ -139,8 +146,8 @@ ContenderEntry entry_of_models(const std::string& after, const std::string& how,
     e.library = "fcl";
     e.summary = "FCL's BVHModel of " + Name::title() + (Name::is_single ? " in floats, " : ", ");
     e.summary += how;
-    e.notes = "build = one model, which stands for the mesh and for its copy, split at the mean, "
-              "the default; query = " +
+    e.notes = "build = one model, which stands for the mesh and for its copy (two where that is "
+              "larger), split at the mean, the default; query = " +
               queries +
               (Name::is_single ? "; floats, compiled here, to which poses are rounded; one thread"
                                : "; doubles, equal to the scene's floats; one thread");

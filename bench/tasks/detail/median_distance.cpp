@@ -11,9 +11,10 @@ double median_distance(const Scene& scene) {
     if (scene.poses.empty() || scene.mesh.triangles.empty())
         return 0;
     const MeshTree tree(scene.mesh);
+    const MeshTree copy(scene.copy());
     std::vector<double> distances;
     for (const Pose& pose : scene.poses)
-        distances.push_back(distance(tree, tree, pose).distance);
+        distances.push_back(distance(tree, copy, pose).distance);
     std::ranges::sort(distances);
     const std::size_t n = distances.size();
     const Aabb<float>& box = tree.bounds();

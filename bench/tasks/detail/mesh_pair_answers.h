@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// What tasks about a mesh and a copy of it are answered with.
@@ -17,10 +18,15 @@ struct PosedPair {
     constexpr auto operator<=>(const PosedPair&) const = default;
 };
 
-/// Of one pose: how far apart the two are, in doubles, and by which triangles.
+/// Of one pose: how far apart the two are, in doubles, by which triangles, and where on them, in
+/// the mesh's frame, if that is said.
 struct PosedDistance {
+    struct Points {
+        Vec3<double> on_mesh, on_copy;
+    };
     double distance = 0, lo = 0, hi = 0;
     Pair triangles{~0u, ~0u};
+    std::optional<Points> points{};
 };
 
 /// The class of contenders of `collide` that also give the contact's point, normal and depth.

@@ -72,7 +72,8 @@ ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     entry.promise = promise();
     entry.name = fmt::format("{}.{}.{}", entry.builder, entry.layout, entry.traversal);
     entry.summary = fmt::format("{}; {}", builder.summary, volume.summary);
-    entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy; query: "
+    entry.notes = fmt::format("build: one tree, which stands for the mesh and for its copy (two "
+                              "where that is larger); query: "
                               "{}; the copy's corners are moved in doubles, boxes are bounded in "
                               "floats, those of the roots in doubles",
                               query_notes());

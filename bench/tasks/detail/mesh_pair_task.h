@@ -13,7 +13,7 @@
 
 namespace boxwood::bench {
 
-/// The tree of the scene's mesh, which stands for the mesh and for its copy.
+/// The tree of the scene's mesh, which stands for its copy, too, unless that is another mesh.
 class MeshPairContender : public Contender {
   public:
     MeshPairContender(const Job& job, BuildFunction build, MeshVolume volume)
@@ -21,7 +21,10 @@ class MeshPairContender : public Contender {
 
     void build() override {
         tree_.reset();
+        other_.reset();
         tree_.emplace(scene_.mesh, MeshTreeOptions{build_, volume_});
+        if (scene_.has_other_copy())
+            other_.emplace(scene_.copy(), MeshTreeOptions{build_, volume_});
     }
     void query(Answers& answers) override { run(answers, nullptr); }
     std::optional<Work> counted_query(Answers& answers) override {
@@ -30,16 +33,18 @@ class MeshPairContender : public Contender {
         return work;
     }
     std::optional<StructureInfo> structure() const override {
-        return StructureInfo{.bytes = tree_->bytes()};
+        return StructureInfo{.bytes = tree_->bytes() + (other_ ? other_->bytes() : 0)};
     }
 
   protected:
     virtual void run(Answers& answers, Work* work) = 0;
+    const MeshTree& mesh() const { return *tree_; }
+    const MeshTree& copy() const { return other_ ? *other_ : *tree_; }
 
     const Scene& scene_;
-    std::optional<MeshTree> tree_;
 
   private:
+    std::optional<MeshTree> tree_, other_; ///< of the mesh, and of a copy that is another one
     BuildFunction build_;
     MeshVolume volume_;
 };

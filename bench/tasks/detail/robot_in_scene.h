@@ -1,6 +1,7 @@
 #pragma once
 
 #include "scenes/scene.h"
+#include "trees/queries/sinks.h"
 #include "trees/world/allowed_pairs.h"
 #include "trees/world/robot.h"
 
@@ -25,6 +26,12 @@ struct RobotInScene {
   private:
     std::span<const TriangleMesh> meshes_;
     std::span<const std::vector<double>> states_;
+};
+
+/// What is answered of one state: how far apart the two nearest links are that must not touch.
+struct StateDistance {
+    double distance = 0, lo = 0, hi = 0;
+    Pair links{~0u, ~0u}; ///< the lower first
 };
 
 } // namespace boxwood::bench

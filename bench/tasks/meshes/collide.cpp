@@ -12,12 +12,16 @@ class FirstTouch final : public MeshPairContender {
   public:
     using MeshPairContender::MeshPairContender;
 
+    void query_part(Answers& answers, std::size_t part) override {
+        list_of<std::uint8_t>(answers).push_back(collide(mesh(), copy(), scene_.poses[part]));
+    }
+
   private:
     void run(Answers& answers, Work* work) override {
         std::vector<std::uint8_t>& touches = list_of<std::uint8_t>(answers);
         touches.clear();
         for (const Pose& pose : scene_.poses)
-            touches.push_back(collide(*tree_, *tree_, pose, work));
+            touches.push_back(collide(mesh(), copy(), pose, work));
     }
 };
 
@@ -28,6 +32,11 @@ class Collide final : public MeshPairTask {
     std::string_view summary() const override {
         return "in which poses a copy of the scene's mesh touches it, at the first pair of "
                "triangles";
+    }
+    std::vector<std::string_view> keys() const override {
+        std::vector<std::string_view> all = MeshPairTask::keys();
+        all.emplace_back("cold_caches");
+        return all;
     }
     std::unique_ptr<Answers> make_answers() const override {
         return std::make_unique<AnswerList<std::uint8_t>>();

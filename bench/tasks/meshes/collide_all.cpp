@@ -26,9 +26,9 @@ class AllTouches final : public MeshPairContender {
         touching.clear();
         for (std::uint32_t i = 0; i < scene_.poses.size(); ++i) {
             if (executor_->threads() > 1 && !work)
-                pairs_ = touching_triangles(*tree_, *tree_, scene_.poses[i], *executor_);
+                pairs_ = touching_triangles(mesh(), copy(), scene_.poses[i], *executor_);
             else
-                touching_triangles(*tree_, *tree_, scene_.poses[i],
+                touching_triangles(mesh(), copy(), scene_.poses[i],
                                    std::numeric_limits<std::size_t>::max(), pairs_, work);
             for (const Pair pair : pairs_)
                 touching.push_back({i, pair.a, pair.b});

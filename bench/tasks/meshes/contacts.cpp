@@ -21,7 +21,7 @@ class AllContacts final : public MeshPairContender {
         std::vector<PosedContact>& found = list_of<PosedContact>(answers);
         found.clear();
         for (std::uint32_t i = 0; i < scene_.poses.size(); ++i)
-            for (const Contact& c : contacts(*tree_, *tree_, scene_.poses[i], {}, work))
+            for (const Contact& c : contacts(mesh(), copy(), scene_.poses[i], {}, work))
                 found.push_back({c.point, c.normal, c.depth, {i, c.triangles.a, c.triangles.b}});
     }
 };

@@ -31,7 +31,7 @@ class FirstMeetings final : public MeshPairContender {
         for (std::size_t i = 0; i < scene_.poses.size(); ++i) {
             const Motion motion(scene_.poses[i], scene_.poses[next_pose(i, scene_.poses.size())],
                                 path);
-            const FirstContact c = first_contact(*tree_, Motion{}, *tree_, motion, options_, work);
+            const FirstContact c = first_contact(mesh(), Motion{}, copy(), motion, options_, work);
             meetings.push_back({c.t_free, c.t_hit, meets(c.hit)});
         }
     }

@@ -30,8 +30,9 @@ class LeastDistance final : public MeshPairContender {
         distances.clear();
         DistanceOptions options = options_;
         for (const Pose& pose : scene_.poses) {
-            const MeshDistance d = distance(*tree_, *tree_, pose, options, work);
-            distances.push_back({d.distance, d.lo, d.hi, d.triangles});
+            const MeshDistance d = distance(mesh(), copy(), pose, options, work);
+            distances.push_back(
+                {d.distance, d.lo, d.hi, d.triangles, PosedDistance::Points{d.point_a, d.point_b}});
             if (is_warm_ && d.found())
                 options.start = d.triangles;
         }

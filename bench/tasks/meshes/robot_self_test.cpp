@@ -1,3 +1,4 @@
+#include "bench/tasks/detail/robot_in_scene.h"
 #include "bench/tasks/task.h"
 #include "bench/truth/truth.h"
 #include "scenes/robots/robot_scene.h"
@@ -5,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -133,12 +135,85 @@ TEST_F(RobotSelf, WantsARobotAndItsOwnBuilder) {
     EXPECT_THROW(task.contender(choice), std::invalid_argument);
 }
 
+struct RobotDistance : RobotSelf {
+    const Task& distances = *find_task("robot_distance");
+    const ContenderEntry ours = distances.contender({});
+
+    AnswerList<StateDistance> answers_of(const Scene& scene) const {
+        const auto contender = ours.make({&scene, &distances});
+        AnswerList<StateDistance> answers;
+        contender->build();
+        contender->query(answers);
+        return answers;
+    }
+};
+
+TEST_F(RobotDistance, IsAnsweredAsTheTruthSays) {
+    for (const char* tip : {"<box size=\"0.2 0.2 1\"/>", "<cylinder radius=\"0.2\" length=\"1\"/>",
+                            "<sphere radius=\"0.4\"/>"}) {
+        SCOPED_TRACE(tip);
+        std::ofstream(spec.file) << arm(tip);
+        const Scene scene = make_scene(spec);
+        const AnswerList<StateDistance> answers = answers_of(scene);
+        const Judgement judged = distances.make_truth(scene, 2)->judge(answers, ours);
+        EXPECT_EQ(judged.status, Status::within_bound) << judged.check.witness;
+        EXPECT_EQ(judged.check.n_checked, 200u);
+        const auto touch = std::ranges::count(answers.list, 0.0, &StateDistance::distance);
+        EXPECT_GT(touch, 10);
+        EXPECT_LT(touch, 190);
+    }
+}
+
+TEST_F(RobotDistance, TheTruthSeesWhatIsWrong) {
+    const Scene scene = make_scene(spec);
+    const AnswerList<StateDistance> right = answers_of(scene);
+    const auto truth = distances.make_truth(scene, 2);
+    const auto apart = static_cast<std::size_t>(
+        std::ranges::find_if(right.list, [](const StateDistance& d) { return d.distance > .05; }) -
+        right.list.begin());
+    ASSERT_LT(apart, right.list.size());
+    const auto judged = [&](auto&& spoil) {
+        AnswerList<StateDistance> wrong;
+        wrong.list = right.list;
+        spoil(wrong.list[apart]);
+        const results::Check check = truth->judge(wrong, ours).check;
+        EXPECT_EQ(check.missing + check.extra, 1u) << check.witness;
+        EXPECT_NE(check.witness.find("state " + std::to_string(apart) + ":"), std::string::npos);
+        return check;
+    };
+    const auto by = [](double factor) {
+        return [factor](StateDistance& d) { d.distance *= factor, d.lo *= factor, d.hi *= factor; };
+    };
+    EXPECT_EQ(judged(by(1.001)).missing, 1u);
+    EXPECT_EQ(judged(by(.999)).extra, 1u);
+    EXPECT_EQ(judged([](StateDistance& d) { d.lo *= .99; }).bound_violations, 1u);
+    EXPECT_EQ(judged([](StateDistance& d) { d.hi *= 1.01; }).bound_violations, 1u);
+    EXPECT_EQ(judged([](StateDistance& d) { d.links = {0, 1}; }).missing, 1u); // may touch
+    EXPECT_EQ(judged([](StateDistance& d) { d.distance = std::nan(""); }).missing, 1u);
+    EXPECT_EQ(judged([](StateDistance& d) { // another pair, which is farther
+                  d.links = d.links.b == 3 ? Pair{0, 2} : Pair{0, 3};
+              })
+                  .extra,
+              1u);
+    AnswerList<StateDistance> few;
+    EXPECT_EQ(truth->judge(few, ours).check.missing, right.list.size());
+}
+
 /// A robot that others made, which is no part of the project: read where it is.
 TEST_F(RobotSelf, IsRightOfPanda) {
     const fs::path panda = "../shared/data/robots/panda/panda.urdf";
     if (!fs::exists(panda))
         GTEST_SKIP() << panda << " is not here: the sample robots are no part of the project";
-    EXPECT_GT(agreed(make_scene({.generator = "robot", .file = panda, .n_poses = 60})), 0u);
+    const Scene scene = make_scene({.generator = "robot", .file = panda, .n_poses = 60});
+    EXPECT_GT(agreed(scene), 0u);
+    const Task& distances = *find_task("robot_distance");
+    const ContenderEntry ours = distances.contender({});
+    const auto contender = ours.make({&scene, &distances});
+    AnswerList<StateDistance> answers;
+    contender->build();
+    contender->query(answers);
+    const Judgement judged = distances.make_truth(scene, 2)->judge(answers, ours);
+    EXPECT_EQ(judged.status, Status::within_bound) << judged.check.witness;
 }
 
 } // namespace

@@ -18,7 +18,7 @@ class Nearer final : public MeshPairContender {
         std::vector<std::uint8_t>& nearer = list_of<std::uint8_t>(answers);
         nearer.clear();
         for (const Pose& pose : scene_.poses)
-            nearer.push_back(within(*tree_, *tree_, pose, tolerance_, work).within);
+            nearer.push_back(within(mesh(), copy(), pose, tolerance_, work).within);
     }
 
     double tolerance_ = median_distance(scene_);

@@ -3,6 +3,7 @@
 #include "bench/truth/judging/case_text.h"
 #include "bench/truth/judging/tally.h"
 #include "bench/truth/judging/truths.h"
+#include "bench/truth/judging/witnesses.h"
 #include "kernels/oracle/exact_answers.h"
 #include "kernels/oracle/roots.h"
 #include "kernels/oracle/second_opinion.h"
@@ -24,9 +25,6 @@ double tolerance(const TrueDistance& truth, const std::string& precision) {
     return 64 * (floats ? 0x1p-24 : 0x1p-53) * truth.extent +
            4 * (floats ? 0x1p-149 : std::numeric_limits<double>::denorm_min());
 }
-
-/// Of witnesses with a promise, times the largest coordinate (distance_kernel.h).
-constexpr double witness_error = 0x1p-44, crossing_error = 0x1p-22, min_error = 0x1p-1070;
 
 /// Largest errors and bounds by decade of L/d.
 class Decades {
@@ -130,22 +128,9 @@ class DistanceTruth final : public CaseTruth {
 
     /// As Distance::point_a says. Beyond the range of doubles nothing is.
     static bool has_witnesses(const Distance& said, const TrueDistance& truth) {
-        double size = 0;
-        for (const Triangle<double>* t : {&truth.a, &truth.b})
-            for (const Vec3<double>& p : {t->a, t->b, t->c})
-                size = std::max({size, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        const auto is_on = [&](Vec3<double> point, const Triangle<double>& t) {
-            return is_finite(point) && oracle::compare(witness_error * size + min_error,
-                                                       oracle::squared_distance(point, t)) >= 0;
-        };
-        const Vec3<double> gap = said.point_a - said.point_b;
-        // hypot of three makes NaN of an infinity.
-        const double apart = is_finite(gap) ? std::hypot(gap.x, gap.y, gap.z)
-                                            : std::numeric_limits<double>::infinity();
-        const double error =
-            (sgn(truth.squared) == 0 ? crossing_error : witness_error) * size + min_error;
-        return is_on(said.point_a, truth.a) && is_on(said.point_b, truth.b) &&
-               apart >= said.lo - error && apart <= said.hi + error;
+        return witness_fault(said.point_a, said.point_b, truth.a, truth.b, said.lo, said.hi,
+                             promised_witnesses(sgn(truth.squared) == 0))
+            .empty();
     }
 
     /// Squares are compared, never roots. Zero is said if and only if the two touch (or the true

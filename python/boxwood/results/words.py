@@ -1,7 +1,7 @@
 """Numbers as the program writes them (bench/io/text_table.h), and the words that columns of few may hold
 (results/words.h has the same)."""
 
-PHASES = ("", "build", "cold_build", "update", "query", "upload", "device_build", "device_query", "download",
+PHASES = ("", "build", "cold_build", "update", "query", "cold_query", "upload", "device_build", "device_query", "download",
           "build+query", "update+query", "cold_build+query")
 STATUSES = ("unchecked", "exact", "conservative", "within_bound", "unsupported", "wrong")
 FAMILIES = ("", "peers", "ours", "threads", "stages", "devices", "errors")
