@@ -115,7 +115,7 @@ TEST_F(QueryMeshes, SignedDistancesGoBelowZero) {
     EXPECT_NEAR(apart, .9, 1e-8);
     EXPECT_TRUE(from <= .9 && to >= .9 && to - from < 1e-8);
     query.a = "sphere:1";
-    EXPECT_THAT(complaint(query), HasSubstr("sphere:1: --signed takes two primitives"));
+    EXPECT_THAT(complaint(query), HasSubstr("--signed: a signed distance is that of"));
 }
 
 TEST_F(QueryMeshes, ToleranceIsAYesOrNo) {

@@ -2,7 +2,6 @@
 
 #include "bench/commands/queries/bodies.h"
 #include "bench/io/bad_input.h"
-#include "scenes/meshes/mesh_file.h"
 #include "scenes/text/csv.h"
 
 #include <fmt/format.h>
@@ -12,11 +11,6 @@
 
 namespace boxwood::bench {
 namespace {
-
-BodyShape shape_of(const std::string& body) {
-    const std::optional<convex::Shape> primitive = read_primitive(body);
-    return primitive ? BodyShape(*primitive) : BodyShape::surface(load_mesh(body));
-}
 
 /// A file of this name is one, whatever it is called.
 std::pair<std::string, Pose> placed(const std::string& text) {
@@ -39,7 +33,7 @@ Surroundings::Surroundings(const RobotCase& robot, const std::vector<std::string
     : links_(world_, robot.robot, robot.meshes, robot.allowed, {.group = 1, .mask = 2}) {
     for (const std::string& text : obstacles) {
         const auto [body, pose] = placed(text);
-        const BodyShape shape = named(body, [&, &file = body] { return shape_of(file); });
+        const BodyShape shape = read_body(body, false, {}).shape;
         names_.emplace(world_.insert(shape, pose, {.group = 2, .mask = 1}), text);
     }
 }

@@ -47,8 +47,9 @@ struct BodyDistance {
 
     bool found() const { return hi < std::numeric_limits<double>::infinity(); }
 };
-/// options.relative is of the distance without margins. Options have no effect on two convex
-/// shapes.
+/// options.relative is of the distance without margins; start and limit have no effect on two
+/// convex shapes. Throws std::invalid_argument for a share that is not from 0 to below 1 and for
+/// other numbers that are negative or NaN.
 BodyDistance distance(const PosedShape& a, const PosedShape& b, const DistanceOptions& options = {},
                       Work* work = nullptr);
 
