@@ -259,9 +259,11 @@ double rounding_of_mesh(const convex::Box& box) {
     return length(Vec3<double>(Vec3<float>(box.half)) - box.half) * (1 + 0x1p-40);
 }
 
-Pose read_pose(const std::string& text, const std::string& option) {
-    if (text.empty())
-        return {};
+namespace {
+
+/// Numbers parted by spaces or commas.
+std::vector<double> numbers_of(const std::string& text, const std::string& option,
+                               const CsvFormat& format) {
     std::string row;
     for (const char c : text) {
         const bool parts = c == ' ' || c == ',' || c == '\t' || c == '\n';
@@ -272,14 +274,43 @@ Pose read_pose(const std::string& text, const std::string& option) {
     }
     if (!row.empty() && row.back() == ',')
         row.pop_back();
-    std::vector<double> matrix;
-    const auto take_matrix = [&](std::span<const double> m, std::size_t) {
-        matrix.assign(m.begin(), m.end());
+    std::vector<double> numbers;
+    const auto take = [&](std::span<const double> all, std::size_t) {
+        numbers.assign(all.begin(), all.end());
     };
-    if (read_csv(row, option, {"16 numbers, a 4 x 4 matrix row by row", 16, 16}, take_matrix) == 0)
-        throw BadInput(option + " is empty; it takes 16 numbers, a 4 x 4 matrix row by row");
+    if (read_csv(row, option, format, take) == 0)
+        throw BadInput(fmt::format("{} is empty; it takes {}", option, format.columns));
+    return numbers;
+}
+
+Pose pose_of(std::span<const double> matrix, const std::string& option) {
     try {
-        return pose_of_matrix(std::span(matrix).first<16>());
+        return pose_of_matrix(matrix.first<16>());
+    } catch (const std::invalid_argument& error) {
+        throw BadInput(fmt::format("{}: {}", option, error.what()));
+    }
+}
+
+} // namespace
+
+Pose read_pose(const std::string& text, const std::string& option) {
+    if (text.empty())
+        return {};
+    return pose_of(numbers_of(text, option, {"16 numbers, a 4 x 4 matrix row by row", 16, 16}),
+                   option);
+}
+
+Pose read_place(const std::string& text, const std::string& option) {
+    constexpr const char* form = "x,y,z or 16 numbers, a 4 x 4 matrix row by row, behind the @";
+    const std::vector<double> numbers = numbers_of(text, option, {form, 3, 16});
+    if (numbers.size() == 16)
+        return pose_of(numbers, option);
+    if (numbers.size() != 3)
+        throw BadInput(fmt::format("{}: {} numbers; it takes {}", option, numbers.size(), form));
+    Pose pose;
+    pose.translation = {numbers[0], numbers[1], numbers[2]};
+    try {
+        return checked_pose(pose);
     } catch (const std::invalid_argument& error) {
         throw BadInput(fmt::format("{}: {}", option, error.what()));
     }

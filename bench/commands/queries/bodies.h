@@ -52,5 +52,7 @@ double rounding_of_mesh(const convex::Box& box);
 /// 16 numbers, row by row, parted by spaces or commas; the identity if empty. Throws BadInput,
 /// which names the option.
 Pose read_pose(const std::string& text, const std::string& option);
+/// The same, or x,y,z alone; not empty.
+Pose read_place(const std::string& text, const std::string& option);
 
 } // namespace boxwood::bench

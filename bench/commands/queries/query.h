@@ -155,7 +155,9 @@ struct RobotQuery {
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> samples; ///< propose pairs by so many
     std::optional<std::string> write_srdf;
-    std::vector<std::string> obstacles; ///< bodies that stand around it, "BODY" or "BODY@x,y,z"
+    std::vector<std::string> obstacles; ///< bodies that stand around it (surroundings.h)
+    std::vector<std::string> allow;     ///< "LINK,LINK" or "LINK,OBSTACLE"
+    bool times = false;
     Format format;
 };
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose

@@ -262,5 +262,91 @@ TEST_F(QueryBodies, TrianglesKeepTheirNumbers) {
     EXPECT_THAT(both.out, HasSubstr("\"triangle_pairs\":[[2,2]]"));
 }
 
+/// A shell, which is the cube of half side 1, about a ball; and a link apart from them.
+constexpr const char* shell = R"(<robot name="shell">
+<link name="shell"><collision><geometry><mesh filename="cube.obj"/></geometry></collision></link>
+<link name="core"><collision><geometry><sphere radius=".1"/></geometry></collision></link>
+<link name="arm"><collision><geometry><sphere radius=".5"/></geometry></collision></link>
+<joint name="a" type="fixed"><parent link="shell"/><child link="arm"/><origin xyz="4 0 0"/></joint>
+<joint name="c" type="fixed"><parent link="arm"/><child link="core"/><origin xyz="-4 0 0"/></joint>
+</robot>)";
+
+TEST_F(QueryBodies, LinksOfARobotAreSolidOnRequest) {
+    put("cube.obj", cube);
+    const std::string urdf = put("shell.urdf", shell);
+    EXPECT_THAT(query({"robot", urdf}).out,
+                ::testing::AllOf(Not(HasSubstr("colliding")), HasSubstr("least,0,shell,core,0.9")));
+    const Said solid = query({"robot", urdf, "--solid"});
+    EXPECT_THAT(solid.out, HasSubstr("colliding,0,shell,core\nleast,0,shell,core,0,0,0\n"));
+    EXPECT_THAT(
+        query({"robot", urdf, "--solid", "--allow", "core,shell"}).out,
+        ::testing::AllOf(HasSubstr("allowed,shell,core,user\n"), Not(HasSubstr("colliding"))));
+    // What stands around it, too.
+    const std::vector<std::string> inside{"robot", urdf, "--obstacle", "sphere:.1@.5,0,0"};
+    EXPECT_THAT(query(inside).out, Not(HasSubstr("hit,0,shell")));
+    std::vector<std::string> of_solid = inside;
+    of_solid.push_back("--solid");
+    EXPECT_THAT(query(of_solid).out, HasSubstr("hit,0,shell,sphere:.1@.5,0,0\n"));
+    put("cube.obj", std::string(cube).substr(0, std::string(cube).rfind("f ")));
+    const Said open = query({"robot", urdf, "--solid"});
+    EXPECT_THAT(open.err, HasSubstr("cube.obj: 3 edges belong to an odd number of triangles"));
+    EXPECT_THAT(open.out, Not(HasSubstr("colliding")));
+}
+
+TEST_F(QueryBodies, ObstaclesHaveNamesAndPosesAndMayBeAllowed) {
+    put("cube.obj", cube);
+    const std::string urdf = put("shell.urdf", shell);
+    // A rod along z, turned to lie along y above the arm's ball: 1 - .5 - .1 away.
+    const std::string rod = "rod=capsule:.1,3@1 0 0 4  0 0 1 0  0 -1 0 1  0 0 0 1";
+    const Said apart = query({"robot", urdf, "--obstacle", rod});
+    EXPECT_EQ(apart.code, 0) << apart.err;
+    const std::size_t at = apart.out.find("clearance,0,arm,rod,");
+    ASSERT_NE(at, std::string::npos) << apart.out;
+    EXPECT_NEAR(std::strtod(apart.out.c_str() + at + 20, nullptr), .4, 1e-9);
+    // Upright it would go through it; along y at a height of .3 it does, too.
+    const std::string low = "rod=capsule:.1,3@1 0 0 4  0 0 1 0  0 -1 0 .3  0 0 0 1";
+    EXPECT_THAT(query({"robot", urdf, "--obstacle", low}).out, HasSubstr("hit,0,arm,rod\n"));
+    const Said allowed = query({"robot", urdf, "--obstacle", low, "--allow", "arm,rod"});
+    EXPECT_THAT(allowed.out, Not(HasSubstr("hit,")));
+    EXPECT_THAT(allowed.out, HasSubstr("clearance,0,shell,rod,"));
+    // Without a NAME an obstacle is what was written.
+    const std::string ball = "sphere:.2@4,0,0";
+    EXPECT_THAT(query({"robot", urdf, "--obstacle", ball}).out, HasSubstr("hit,0,arm," + ball));
+    EXPECT_THAT(query({"robot", urdf, "--obstacle", ball, "--allow", "arm," + ball}).out,
+                Not(HasSubstr("hit,")));
+    const auto complaint = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"robot", urdf});
+        const Said said = query(more);
+        EXPECT_EQ(said.code, 2) << said.out;
+        return said.err;
+    };
+    EXPECT_THAT(complaint({"--allow", "arm"}), HasSubstr("LINK,LINK or LINK,OBSTACLE"));
+    EXPECT_THAT(complaint({"--allow", "amr,shell"}), HasSubstr("did you mean 'arm'?"));
+    EXPECT_THAT(complaint({"--allow", "arm,arm"}), HasSubstr("one link"));
+    EXPECT_THAT(complaint({"--obstacle", rod, "--allow", "arm,rad"}),
+                HasSubstr("unknown link or obstacle 'rad'; did you mean 'rod'?"));
+    EXPECT_THAT(complaint({"--obstacle", rod, "--obstacle", low}),
+                HasSubstr("another one is called rod"));
+    EXPECT_THAT(complaint({"--obstacle", "sphere:1@1,2,3,4"}),
+                HasSubstr("4 numbers; it takes x,y,z"));
+    EXPECT_THAT(complaint({"--obstacle", "sphere:1@2 0 0 0 0 2 0 0 0 0 2 0 0 0 0 1"}),
+                HasSubstr("no rigid transform"));
+}
+
+TEST_F(QueryBodies, RobotsAreTimedByState) {
+    put("cube.obj", cube);
+    const std::string urdf = put("shell.urdf", shell);
+    const Said plain = query({"robot", urdf, "--random", "3", "--obstacle", "plane:0,0,1,-9"});
+    const Said timed =
+        query({"robot", urdf, "--random", "3", "--obstacle", "plane:0,0,1,-9", "--times"});
+    EXPECT_EQ(timed.out, plain.out);
+    EXPECT_THAT(timed.err, HasSubstr("boxwood: read in "));
+    EXPECT_THAT(plain.err, Not(HasSubstr("read in")));
+    const Said json = query({"robot", urdf, "--times", "--json"});
+    EXPECT_THAT(json.out, ::testing::ContainsRegex("\\],\"read_seconds\":[0-9.e-]+,.*"
+                                                   "\"query_runs\":[0-9]+}\n"));
+    EXPECT_THAT(json.err, Not(HasSubstr("read in")));
+}
+
 } // namespace
 } // namespace boxwood::bench
