@@ -8,6 +8,7 @@
 #include "scenes/text/read_file.h"
 #include "trees/world/box_mesh.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -200,9 +201,11 @@ template <class Make> auto named(const std::string& body, const Make& make) {
 NamedBody body_of_file(const std::string& file, const BodyReading& how, QueryTimes& times) {
     UserMesh read =
         times.reading([&] { return read_user_mesh(file, how.bad_triangles, how.is_solid); });
+    MeshTreeOptions tree;
+    tree.volume = how.volume;
     NamedBody body{times.building([&] {
-                       return how.is_solid ? BodyShape::solid(std::move(read.mesh))
-                                           : BodyShape::surface(std::move(read.mesh));
+                       return how.is_solid ? BodyShape::solid(std::move(read.mesh), tree)
+                                           : BodyShape::surface(std::move(read.mesh), tree);
                    }),
                    {},
                    std::move(read.numbers)};
@@ -241,8 +244,6 @@ bool is_surface_form(const std::string& text) {
     return !form || form->name == "box" || form->name == "height_field";
 }
 
-bool is_mesh_file(const std::string& text) { return !form_of(text); }
-
 NamedBody read_body(const std::string& text, bool box_is_surface, const BodyReading& how) {
     QueryTimes unwanted;
     QueryTimes& times = how.times ? *how.times : unwanted;
@@ -253,6 +254,18 @@ NamedBody read_body(const std::string& text, bool box_is_surface, const BodyRead
         times.building([&] { return body.shape.build(); });
         return body;
     });
+}
+
+void add_volume_option(CLI::App& app, MeshVolume& volume) {
+    const auto names = names_of(mesh_volumes());
+    app.add_option_function<std::string>(
+           "--volume",
+           [&volume](const std::string& name) {
+               volume = entry_named(name, mesh_volumes(), "volume").volume;
+           },
+           "what encloses the parts of a mesh in its tree, a name of `boxwood list volumes`")
+        ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
+        ->default_str(std::string(mesh_volumes().front().name));
 }
 
 double rounding_of_mesh(const convex::Box& box) {

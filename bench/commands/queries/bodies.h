@@ -25,7 +25,8 @@ std::string body_forms();
 struct BodyReading {
     bool is_solid = false; ///< closed meshes are solids
     BadTriangles bad_triangles = BadTriangles::keep;
-    QueryTimes* times = nullptr; ///< has what it took, if given
+    MeshVolume volume = MeshVolume::obb; ///< of the trees of meshes
+    QueryTimes* times = nullptr;         ///< has what it took, if given
 };
 
 /// A body as it was written, in the place of a mesh file: see body_forms.
@@ -40,11 +41,13 @@ struct NamedBody {
 
 /// Whether a box beside this body is its surface: a mesh file, a height field or another box.
 bool is_surface_form(const std::string& text);
-bool is_mesh_file(const std::string& text);
 
 /// Reads and builds it. box_is_surface: a box is 12 triangles, else a convex shape. Throws BadInput
 /// for numbers that make no sense, for a mesh that is no solid and should be one, and as load_mesh.
 NamedBody read_body(const std::string& text, bool box_is_surface, const BodyReading& how);
+
+/// The option --volume, by the names of `mesh_volumes`.
+void add_volume_option(CLI::App& app, MeshVolume& volume);
 
 /// How far the corners of a box's triangles are off, as floats, rounded up.
 double rounding_of_mesh(const convex::Box& box);

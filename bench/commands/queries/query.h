@@ -4,6 +4,7 @@
 #include "bench/commands/queries/user_mesh.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/world/mesh_tree.h"
 #include "trees/world/robot_collision.h"
 
 #include <memory>
@@ -107,6 +108,7 @@ struct MeshesQuery {
     std::optional<double> tolerance;
     bool solid = false; ///< closed meshes, and what lies inside touches
     BadTriangles bad_triangles = BadTriangles::keep;
+    MeshVolume volume = MeshVolume::obb;
     bool is_signed = false;            ///< distance: below 0 where they overlap
     double relative = 0, absolute = 0; ///< distance: how much too far it may be
     bool reduce = false;               ///< contacts: at most four
@@ -126,6 +128,7 @@ struct ContinuousQuery {
     std::string motion = "linear";          ///< or screw
     bool solid = false;                     ///< closed meshes: what begins inside touches at 0
     BadTriangles bad_triangles = BadTriangles::keep;
+    MeshVolume volume = MeshVolume::obb;
     bool times = false;
     Format format;
 };

@@ -203,6 +203,24 @@ TEST_F(QueryBodies, DistancesMayBeRough) {
     }
 }
 
+/// The same answer from either tree, the slower one of which takes its time somewhere.
+TEST_F(QueryBodies, VolumesAreChosenByName) {
+    const std::string mesh = put("cube.obj", cube);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"distance", mesh, "sphere:.5", "--pose-b", at(3, 2, 1)},
+          {"collide", mesh, mesh, "--solid"},
+          {"continuous", mesh, "sphere:1", "--from-b", at(4, 0, 0), "--to-b", at(0, 0, 0)}}) {
+        std::vector<std::string> of_aabb = words;
+        of_aabb.insert(of_aabb.end(), {"--volume", "aabb"});
+        const Said said = query(of_aabb);
+        EXPECT_EQ(said.code, 0) << said.err;
+        EXPECT_EQ(said.out, query(words).out);
+    }
+    const Said unknown = query({"collide", mesh, mesh, "--volume", "sphere"});
+    EXPECT_EQ(unknown.code, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("obb"));
+}
+
 TEST_F(QueryBodies, WhatBeginsInsideASolidTouchesAtOnce) {
     const std::string mesh = put("cube.obj", cube);
     for (const char* inner : {"sphere:.1", "box:.25,.25,.25", "box:.2,.2,.2"}) {

@@ -25,7 +25,7 @@ void run(const ContinuousQuery& query, std::ostream& out) {
     const BodyPair::Path path_a = path(query.from_a, query.to_a, "a");
     const BodyPair::Path path_b = path(query.from_b, query.to_b, "b");
     QueryTimes times(query.times);
-    const BodyPair pair(query.a, query.b, {query.solid, query.bad_triangles, &times});
+    const BodyPair pair(query.a, query.b, {query.solid, query.bad_triangles, query.volume, &times});
     const FirstContact first =
         times.answering([&] { return pair.first_contact(path_a, path_b, kind); });
     const bool hit = first.hit != Answer::no; // left open: on the safe side
@@ -61,6 +61,7 @@ void add_query_continuous(CLI::App& query) {
     command->add_flag("--solid", options->solid,
                       "closed meshes are solids: what begins inside one touches it at time 0");
     add_bad_triangles_option(*command, options->bad_triangles);
+    add_volume_option(*command, options->volume);
     add_times_option(*command, options->times);
     add_format_options(*command, options->format);
     command->footer(

@@ -30,7 +30,8 @@ class Bodies {
     Bodies(const MeshesQuery& query, QueryTimes& times)
         : pose_a_(read_pose(query.pose_a, "--pose-a")),
           b_in_a_(relative_pose(pose_a_, read_pose(query.pose_b, "--pose-b"))),
-          pair_(query.a, query.b, {query.solid, query.bad_triangles, &times}), times_(times) {}
+          pair_(query.a, query.b, {query.solid, query.bad_triangles, query.volume, &times}),
+          times_(times) {}
     const BodyPair& pair() const { return pair_; }
     const Pose& b_in_a() const { return b_in_a_; }
     QueryTimes& times() const { return times_; }
@@ -110,11 +111,11 @@ void answer_distance(const Bodies& bodies, const MeshesQuery& query, std::ostrea
 }
 
 void answer_signed_distance(const MeshesQuery& query, QueryTimes& times, std::ostream& out) {
-    const bool is_mesh = is_mesh_file(query.a) || is_mesh_file(query.b);
-    const std::string_view kernel = is_mesh ? CertifiedDistance::name : convex::gjk_epa_info.name;
+    const BodyReading how{true, query.bad_triangles, query.volume, &times};
+    const NamedBody a = read_body(query.a, false, how), b = read_body(query.b, false, how);
+    const bool has_mesh = a.has_triangles() || b.has_triangles();
+    const std::string_view kernel = has_mesh ? CertifiedDistance::name : convex::gjk_epa_info.name;
     require_kernel(query.kernel, kernel);
-    const BodyReading how{true, query.bad_triangles, &times};
-    const NamedBody a = read_body(query.a, is_mesh, how), b = read_body(query.b, is_mesh, how);
     const PosedShape posed_a{a.shape, read_pose(query.pose_a, "--pose-a")},
         posed_b{b.shape, read_pose(query.pose_b, "--pose-b")};
     BodyDistance d;
@@ -123,11 +124,6 @@ void answer_signed_distance(const MeshesQuery& query, QueryTimes& times, std::os
     } catch (const std::invalid_argument& error) {
         throw BadInput(fmt::format("--signed: {}", error.what()));
     }
-    for (const NamedBody* body : {&a, &b})
-        if (body->box) {
-            d.lo -= rounding_of_mesh(*body->box);
-            d.hi += rounding_of_mesh(*body->box);
-        }
     print_distance(d, d.point_a, d.point_b, kernel, times, query.format, out);
 }
 
@@ -234,9 +230,10 @@ void add_query_meshes(CLI::App& query) {
         {Question::distance, "distance", "how far two meshes or primitives are apart",
          "Prints distance,lo,hi: the true distance lies between lo and hi, of meshes 2^-32 of it "
          "apart; all are 0 where the two\ncertainly touch. With --signed minus the depth there: of "
-         "primitives the least way that parts them, of closed\nmeshes the farthest that a point of "
-         "one inside the other is from its surface, within a hundredth of the smaller "
-         "one.\n\nExample:\n  boxwood query distance gripper.stl cup.obj --json\n"
+         "primitives the least way that parts them; where one is a\nclosed mesh the farthest that "
+         "a "
+         "point of one's surface inside the other is from the other's, within a hundredth\nof the "
+         "smaller one.\n\nExample:\n  boxwood query distance gripper.stl cup.obj --json\n"
          "  boxwood query distance gripper.stl half_space:0,0,1,-.5 --relative .01 --times"},
         {Question::tolerance, "tolerance",
          "whether two meshes or primitives are at most so far apart",
@@ -262,9 +259,8 @@ void add_query_meshes(CLI::App& query) {
         command->add_flag("--solid", options->solid,
                           "closed meshes are solids: what lies inside one touches it");
         if (row.question == Question::distance) {
-            command->add_flag(
-                "--signed", options->is_signed,
-                "of primitives, or of solids (closed meshes and boxes): below 0 they overlap");
+            command->add_flag("--signed", options->is_signed,
+                              "of closed meshes and what is solid: below 0 they overlap");
             command->add_option("--relative", options->relative,
                                 "the share of the answer that it may be farther than the least "
                                 "distance: 0.1 for 10 %; lo and hi hold, and less is computed");
@@ -283,6 +279,7 @@ void add_query_meshes(CLI::App& query) {
             command->add_flag("--reduce", options->reduce,
                               "at most four: the deepest, and those that span the most");
         add_bad_triangles_option(*command, options->bad_triangles);
+        add_volume_option(*command, options->volume);
         add_times_option(*command, options->times);
         add_format_options(*command, options->format);
         command->footer(body_forms() + row.footer);

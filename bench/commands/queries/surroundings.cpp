@@ -91,7 +91,8 @@ Surroundings::Surroundings(const RobotCase& robot, const AllowedByUser& allowed,
     std::vector<std::uint32_t> bodies;
     for (const Obstacle& obstacle : allowed.obstacles) {
         const BodyShape shape =
-            read_body(obstacle.body, false, {false, files.bad_triangles, &times}).shape;
+            read_body(obstacle.body, false, {.bad_triangles = files.bad_triangles, .times = &times})
+                .shape;
         bodies.push_back(world_.insert(shape, obstacle.pose, {.group = 2, .mask = 1}));
         names_.emplace(bodies.back(), obstacle.name);
     }
