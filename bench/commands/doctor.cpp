@@ -274,7 +274,7 @@ void write_good_triangles(const TriangleMesh& mesh, const std::string& out) {
     const TriangleMesh good = without_bad_triangles(mesh, triage(mesh));
     std::ofstream text(out, std::ios::binary);
     for (const Vec3<float>& v : good.vertices)
-        text << (is_finite(v) ? fmt::format("v {} {} {}\n", v.x, v.y, v.z) : "v 0 0 0\n");
+        text << fmt::format("v {} {} {}\n", v.x, v.y, v.z);
     for (const auto& [a, b, c] : good.triangles)
         text << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
     text.close();

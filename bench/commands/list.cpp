@@ -13,6 +13,7 @@
 #include "trees/builder.h"
 #include "trees/dynamic/update.h"
 #include "trees/layout.h"
+#include "trees/world/mesh_tree.h"
 
 #include <CLI/CLI.hpp>
 
@@ -187,6 +188,19 @@ Rows device_rows() {
     return rows;
 }
 
+/// With the default, which is the first.
+Rows volume_rows() {
+    Rows rows;
+    for (const MeshVolumeEntry& volume : mesh_volumes()) {
+        const bool is_default = &volume == &mesh_volumes().front();
+        rows.push_back({std::string(volume.name),
+                        fmt::format("{}{}", volume.summary, is_default ? " (the default)" : ""),
+                        {{"default", is_default ? "true" : "false"}},
+                        {}});
+    }
+    return rows;
+}
+
 struct Registry {
     std::string_view name, summary;
     Rows (*rows)();
@@ -198,6 +212,7 @@ constexpr std::array registries{
     Registry{"optimizers", "improve a tree: BUILDER+OPTIMIZER",
              [] { return with_settings(optimizers()); }},
     Registry{"layouts", "store a tree in memory", [] { return plain(layouts()); }},
+    Registry{"volumes", "enclose the parts of a mesh", volume_rows},
     Registry{"queries", "what a layout can be searched for", [] { return plain(traversals()); }},
     Registry{"updates", "follow boxes that move", [] { return with_settings(updates()); }},
     Registry{"executors", "run work on threads", [] { return plain(executors()); }},

@@ -1,5 +1,7 @@
 #include "bench/commands/list.h"
 
+#include "trees/world/mesh_tree.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,6 +44,14 @@ TEST(List, OneRegistryHasALinePerEntry) {
     EXPECT_THAT(list_text("executors", true), StartsWith("[{\"name\":\"serial\",\"summary\":"));
     EXPECT_THAT(list_text("tasks", false), HasSubstr("rays_closest"));
     EXPECT_THAT(list_text("kernels", true), HasSubstr("\"name\":\"watertight\""));
+}
+
+TEST(List, TheDefaultVolumeIsNamed) {
+    EXPECT_THAT(list_text("volumes", false), ContainsRegex("obb +.*\\(the default\\)\naabb +"));
+    EXPECT_THAT(list_text("volumes", true), ContainsRegex("\"obb\",.*\"default\":true.*\"aabb\",.*"
+                                                          "\"default\":false"));
+    EXPECT_THAT(list_text("", false), ContainsRegex("volumes +2 .*obb, aabb\n"));
+    EXPECT_EQ(mesh_volumes().front().volume, MeshTreeOptions().volume);
 }
 
 TEST(List, EveryEntryHasASummaryAndLinesFitTheScreen) {

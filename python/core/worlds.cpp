@@ -317,13 +317,13 @@ void add_questions(py::class_<PyWorld>& to) {
                     without_gil([&] { return self.world().signed_distance(i, j, tolerance); }));
             },
             arg("a"), arg("b"), py::kw_only(), arg("tolerance") = 0.0,
-            R"(BodyDistance of two convex shapes or of two solids; below 0 they overlap.
+            R"(BodyDistance of convex shapes and solids; below 0 they overlap.
 
-Then -distance is how deep: of convex shapes the least way that parts them, of
-solids the farthest that a point of one's surface inside the other is from the
-other's. tolerance: how far lo and hi may be apart then (of solids); 0 is a
-hundredth of the smaller one's size. Raises ValueError where one is a surface,
-or one is convex and the other a solid.)")
+Then -distance is how deep: of two convex shapes the least way that parts them,
+where one is a solid the farthest that a point of one's surface inside the other
+is from the other's. tolerance: how far lo and hi may be apart then (of a solid);
+0 is a hundredth of the smaller one's size. Raises ValueError where one is a
+surface.)")
         .def(
             "are_within",
             [](const PyWorld& self, Object a, Object b, double tolerance) {
@@ -360,18 +360,23 @@ or one is convex and the other a solid.)")
             "One of them, or None.")
         .def(
             "least_distance",
-            [](const PyWorld& self, double limit) {
-                return answer_of(without_gil([&] { return self.world().least_distance(limit); }));
+            [](const PyWorld& self, double limit, double relative, double absolute) {
+                const DistanceOptions options{relative, absolute, std::nullopt, limit};
+                return answer_of(without_gil([&] { return self.world().least_distance(options); }));
             },
-            arg("limit") = no_limit, "BodyDistance of the nearest pair; None from the limit on.")
+            arg("limit") = no_limit, py::kw_only(), arg("relative") = 0.0, arg("absolute") = 0.0,
+            "BodyDistance of the nearest pair; None from the limit on. It may be farther, and less "
+            "is looked at: hi <= (lo + absolute) / (1 - relative).")
         .def(
             "least_distance_of",
-            [](const PyWorld& self, Object body, double limit) {
+            [](const PyWorld& self, Object body, double limit, double relative, double absolute) {
                 const std::uint32_t i = self.body(body);
+                const DistanceOptions options{relative, absolute, std::nullopt, limit};
                 return answer_of(
-                    without_gil([&] { return self.world().least_distance_of(i, limit); }));
+                    without_gil([&] { return self.world().least_distance_of(i, options); }));
             },
-            arg("body"), arg("limit") = no_limit,
+            arg("body"), arg("limit") = no_limit, py::kw_only(), arg("relative") = 0.0,
+            arg("absolute") = 0.0,
             "BodyDistance of this body and what is nearest to it; None from the limit on.")
         .def(
             "within",

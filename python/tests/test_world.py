@@ -73,8 +73,13 @@ def test_a_signed_distance_goes_below_zero():
     solids = [world.insert(bw.Shape.solid(2 * CUBE, FACES), at(x)) for x in (10, 11.5)]
     found = world.signed_distance(*solids, tolerance=0.01)
     assert found.hi - found.lo <= 0.0101 and world.distance(*solids).distance == 0 and found.distance < -0.1
-    with pytest.raises(ValueError, match="two convex shapes or of two"):
-        world.signed_distance(box, solids[0])
+    probe = world.insert(bw.Shape.sphere(0.5), at(12, 1, 1))  # about the middle of a face of the first
+    mixed, back = (world.signed_distance(*pair, tolerance=0.01) for pair in ((solids[0], probe), (probe, solids[0])))
+    assert mixed.lo <= -0.5 <= mixed.hi and mixed.hi - mixed.lo <= 0.0101
+    assert back.lo <= mixed.hi and mixed.lo <= back.hi
+    shell = world.insert(bw.Mesh(CUBE, FACES))
+    with pytest.raises(ValueError, match="a surface has no inside"):
+        world.signed_distance(box, shell)
 
 
 def test_a_world_says_what_it_did():
@@ -111,6 +116,10 @@ def test_spheres_against_numpy():
     nearest = world.least_distance()
     assert nearest.distance == pytest.approx(gaps.min()) and (nearest.body_a, nearest.body_b) == (a[gaps.argmin()] + 1, b[gaps.argmin()] + 1)
     assert world.least_distance(gaps.min() * 0.99) is None
+    rough = world.least_distance(relative=0.5, absolute=0.01)
+    assert rough.lo <= gaps.min() + 1e-9 and gaps.min() - 1e-9 <= rough.distance <= rough.hi
+    with pytest.raises(ValueError, match="relative"):
+        world.least_distance_of(5, relative=1)
 
 
 def test_first_contacts():

@@ -141,7 +141,8 @@ void check_tree(const RobotDescription& robot, const std::string& source) {
 
 /// Finds and reads each mesh once; the n-th LinkMesh then names its index.
 void add_meshes(const XmlReader& reader, const UrdfScan& scan, const fs::path& urdf_file,
-                std::span<const fs::path> package_folders, bool load, UrdfRobot& robot) {
+                std::span<const fs::path> package_folders, bool load_meshes, const LoadMesh& load,
+                UrdfRobot& robot) {
     std::map<fs::path, std::uint32_t> known;
     std::vector<std::uint32_t> index_of;
     for (const UrdfScan::Mesh& mesh : scan.meshes) {
@@ -153,8 +154,8 @@ void add_meshes(const XmlReader& reader, const UrdfScan& scan, const fs::path& u
             if (!is_new)
                 continue;
             robot.mesh_files.push_back(file);
-            if (load)
-                robot.meshes.push_back(load_mesh(file));
+            if (load_meshes)
+                robot.meshes.push_back(load ? load(file) : load_mesh(file));
         } catch (const std::runtime_error& error) {
             reader.fail(*mesh.element, fmt::format("link '{}': {}", mesh.link, error.what()));
         }
@@ -168,7 +169,8 @@ void add_meshes(const XmlReader& reader, const UrdfScan& scan, const fs::path& u
 } // namespace
 
 UrdfRobot parse_urdf(std::string_view text, const fs::path& file,
-                     std::span<const fs::path> package_folders, bool load_meshes) {
+                     std::span<const fs::path> package_folders, bool load_meshes,
+                     const LoadMesh& load) {
     const XmlReader reader(text, file.string(), "URDF");
     UrdfScan scan = scan_urdf(reader);
     UrdfRobot robot;
@@ -176,12 +178,13 @@ UrdfRobot parse_urdf(std::string_view text, const fs::path& file,
     check_tree(robot.description, reader.source());
     take_numbers(UrdfdomModel(scan.plain, reader.source()), robot.description);
     check_tree(robot.description, reader.source());
-    add_meshes(reader, scan, file, package_folders, load_meshes, robot);
+    add_meshes(reader, scan, file, package_folders, load_meshes, load, robot);
     return robot;
 }
 
-UrdfRobot read_urdf(const fs::path& file, std::span<const fs::path> package_folders) {
-    return parse_urdf(read_file(file, "URDF"), file, package_folders);
+UrdfRobot read_urdf(const fs::path& file, std::span<const fs::path> package_folders,
+                    const LoadMesh& load) {
+    return parse_urdf(read_file(file, "URDF"), file, package_folders, true, load);
 }
 
 } // namespace boxwood

@@ -4,6 +4,7 @@
 #include "kernels/primitives/triangle.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,12 +27,15 @@ struct UrdfRobot {
 /// Throws std::runtime_error, "file:line: ..." where there is a line, for a file or mesh that is
 /// missing or malformed, links that make no tree, numbers that are not finite, sizes below 0,
 /// joints without limits, and planar and floating joints.
+/// load: reads a mesh instead of load_mesh, and throws as it.
+using LoadMesh = std::function<TriangleMesh(const std::filesystem::path&)>;
 UrdfRobot read_urdf(const std::filesystem::path& file,
-                    std::span<const std::filesystem::path> package_folders = {});
+                    std::span<const std::filesystem::path> package_folders = {},
+                    const LoadMesh& load = {});
 
 /// The same from text, which comes from `file`; without meshes if `load_meshes` is false.
 UrdfRobot parse_urdf(std::string_view text, const std::filesystem::path& file,
                      std::span<const std::filesystem::path> package_folders = {},
-                     bool load_meshes = true);
+                     bool load_meshes = true, const LoadMesh& load = {});
 
 } // namespace boxwood

@@ -248,7 +248,7 @@ def test_version_says_how_it_was_built():
 def test_list_is_the_same_whole_and_in_parts():
     whole = json.loads(answer("list", "--json"))
     assert list(whole) == (
-        "builders optimizers layouts queries updates executors devices kernels families scenes moving_scenes effects "
+        "builders optimizers layouts volumes queries updates executors devices kernels families scenes moving_scenes effects "
         "scene_queries query_kinds tasks peers".split()
     )
     for name, rows in whole.items():

@@ -24,6 +24,13 @@ using namespace detail;
 
 constexpr std::size_t chunk = 64; // blocks to a task
 
+constexpr MeshVolumeEntry volumes[] = {
+    {"obb", "eight boxes in any pose side by side, leaves of up to eight triangles",
+     MeshVolume::obb},
+    {"aabb", "the same with boxes along the mesh's axes: quicker to make, longer to search",
+     MeshVolume::aabb},
+};
+
 void require_range(const Buffer<Box>& boxes) {
     constexpr float largest = 0x1p60f;
     for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -194,6 +201,8 @@ void set_lane(ObbBlock& block, std::size_t lane, const PosedBox& box, std::uint3
 }
 
 } // namespace
+
+std::span<const MeshVolumeEntry> mesh_volumes() { return volumes; }
 
 MeshTree::MeshTree(TriangleMesh mesh, const MeshTreeOptions& options) : mesh_(std::move(mesh)) {
     const Executor& executor = options.executor ? *options.executor : serial();

@@ -13,12 +13,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace boxwood {
 
 /// What the tree of a mesh is made of: boxes in any pose, or boxes along the mesh's axes, which are
 /// quicker to make and take longer to search.
 enum class MeshVolume : std::uint8_t { obb, aabb };
+
+/// All of them by name, in one line; the default one first.
+struct MeshVolumeEntry {
+    std::string_view name, summary;
+    MeshVolume volume;
+};
+std::span<const MeshVolumeEntry> mesh_volumes();
 
 struct MeshTreeOptions {
     /// By default one that counts in whole leaves, as these hold eight triangles.

@@ -89,16 +89,26 @@ MeshTriage triage(const TriangleMesh& mesh) {
     return found;
 }
 
-TriangleMesh without_bad_triangles(const TriangleMesh& mesh, const MeshTriage& triage) {
-    std::vector<std::uint8_t> is_bad(mesh.triangles.size());
+std::vector<std::uint32_t> good_triangles(const MeshTriage& triage) {
+    std::vector<std::uint8_t> is_bad(triage.triangles);
     for (const auto* list :
          {&triage.missing_vertices, &triage.not_finite, &triage.without_area, &triage.repeated})
         for (const std::uint32_t i : *list)
             is_bad[i] = 1;
-    TriangleMesh good{mesh.vertices, {}};
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    std::vector<std::uint32_t> good;
+    for (std::uint32_t i = 0; i < triage.triangles; ++i)
         if (!is_bad[i])
-            good.triangles.push_back(mesh.triangles[i]);
+            good.push_back(i);
+    return good;
+}
+
+TriangleMesh without_bad_triangles(const TriangleMesh& mesh, const MeshTriage& triage) {
+    TriangleMesh good{mesh.vertices, {}};
+    for (Vec3<float>& vertex : good.vertices)
+        if (!is_finite(vertex))
+            vertex = {};
+    for (const std::uint32_t i : good_triangles(triage))
+        good.triangles.push_back(mesh.triangles[i]);
     return good;
 }
 

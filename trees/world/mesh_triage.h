@@ -31,7 +31,11 @@ struct MeshTriage {
 /// Looks at any mesh; never throws for what it finds.
 MeshTriage triage(const TriangleMesh& mesh);
 
-/// The mesh without its bad triangles; the others keep their order.
+/// The numbers of the triangles that are not bad, ascending.
+std::vector<std::uint32_t> good_triangles(const MeshTriage& triage);
+
+/// The mesh without its bad triangles: triangle i is good_triangles(triage)[i] of the mesh.
+/// Vertices that are not finite, which none of them has, are moved to the origin.
 TriangleMesh without_bad_triangles(const TriangleMesh& mesh, const MeshTriage& triage);
 
 } // namespace boxwood

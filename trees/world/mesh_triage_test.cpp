@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,7 +41,12 @@ TEST(MeshTriage, SetsBadTrianglesAside) {
     EXPECT_EQ(found.unused_vertices, 1u);
     EXPECT_TRUE(found.is_closed());
     EXPECT_FALSE(found.is_clean());
-    EXPECT_EQ(without_bad_triangles(mesh, found).triangles, cube_mesh(1).triangles);
+    const TriangleMesh good = without_bad_triangles(mesh, found);
+    EXPECT_EQ(good.triangles, cube_mesh(1).triangles);
+    EXPECT_TRUE(std::ranges::all_of(good.vertices, [](const auto& v) { return is_finite(v); }));
+    const std::vector<std::uint32_t> numbers = good_triangles(found);
+    ASSERT_EQ(numbers.size(), 12u);
+    EXPECT_EQ(numbers.back(), 11u);
 }
 
 TEST(MeshTriage, AreaIsExact) {

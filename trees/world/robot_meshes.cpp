@@ -1,6 +1,7 @@
 #include "trees/world/robot_meshes.h"
 
 #include "kernels/convex/signed_distance.h"
+#include "trees/world/bodies/shape_pairs.h"
 #include "trees/world/mesh_pairs.h"
 #include "trees/world/mesh_shape.h"
 
@@ -24,7 +25,7 @@ LinkDistance before(double limit, double distance, double lo, double hi) {
 } // namespace
 
 std::optional<convex::Shape> solid_of(const LinkShape& shape) {
-    struct Solid {
+    struct Make {
         std::optional<convex::Shape> operator()(const LinkMesh&) const { return std::nullopt; }
         std::optional<convex::Shape> operator()(const LinkBox& b) const {
             return convex::Box{0.5 * b.sides};
@@ -39,31 +40,44 @@ std::optional<convex::Shape> solid_of(const LinkShape& shape) {
             return convex::Capsule{c.radius, c.length / 2};
         }
     };
-    return std::visit(Solid{}, shape);
+    return std::visit(Make{}, shape);
 }
 
-RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshes)
+RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshes,
+                         const RobotMeshesOptions& options)
     : parts_(robot.links().size()) {
-    std::map<std::tuple<std::uint32_t, double, double, double>, std::shared_ptr<const MeshTree>>
-        trees;
+    std::map<std::tuple<std::uint32_t, double, double, double>, BodyShape> bodies;
+    const auto body_of = [&](const std::string& link, const LinkMesh& of) {
+        if (of.mesh >= meshes.size())
+            throw std::invalid_argument("link " + link + " names mesh " + std::to_string(of.mesh) +
+                                        ", and there are " + std::to_string(meshes.size()));
+        const std::tuple key{of.mesh, of.scale.x, of.scale.y, of.scale.z};
+        auto found = bodies.find(key);
+        if (found == bodies.end()) {
+            TriangleMesh mesh = scaled(meshes[of.mesh], of.scale);
+            found =
+                bodies
+                    .emplace(key, options.are_solid ? BodyShape::solid_if_closed(std::move(mesh))
+                                                    : BodyShape::surface(std::move(mesh)))
+                    .first;
+        }
+        return found->second;
+    };
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const LinkDescription& link = robot.links()[i];
         for (const LinkGeometry& geometry : link.geometries) {
-            Part part{nullptr, solid_of(geometry.shape).value_or(convex::Shape{}), geometry.origin,
-                      geometry.origin != Pose{}};
-            if (const auto* mesh = std::get_if<LinkMesh>(&geometry.shape)) {
-                if (mesh->mesh >= meshes.size())
-                    throw std::invalid_argument("link " + link.name + " names mesh " +
-                                                std::to_string(mesh->mesh) + ", and there are " +
-                                                std::to_string(meshes.size()));
-                auto& shared = trees[{mesh->mesh, mesh->scale.x, mesh->scale.y, mesh->scale.z}];
-                if (!shared)
-                    shared = std::make_shared<MeshTree>(scaled(meshes[mesh->mesh], mesh->scale));
-                part.mesh = shared;
-            }
-            parts_[i].push_back(std::move(part));
+            const auto* mesh = std::get_if<LinkMesh>(&geometry.shape);
+            const convex::Shape shape = solid_of(geometry.shape).value_or(convex::Shape{});
+            const BodyShape body = mesh ? body_of(link.name, *mesh) : BodyShape(shape);
+            parts_[i].push_back({mesh ? &body.tree() : nullptr, shape, body, geometry.origin,
+                                 geometry.origin != Pose{}});
         }
     }
+}
+
+bool RobotMeshes::has_solid(const Placed& a, const Placed& b) {
+    return a.part.body.shape_class() == ShapeClass::solid ||
+           b.part.body.shape_class() == ShapeClass::solid;
 }
 
 RobotMeshes::Placed RobotMeshes::placed(const Part& part, const Pose& link) {
@@ -82,6 +96,9 @@ void RobotMeshes::for_each_pair(std::uint32_t a, std::uint32_t b,
 }
 
 bool RobotMeshes::touch(const Placed& a, const Placed& b) {
+    if (has_solid(a, b))
+        return boxwood::collide(PosedShape{a.part.body, a.pose}, PosedShape{b.part.body, b.pose}) !=
+               Answer::no;
     if (a.part.mesh && b.part.mesh)
         return boxwood::collide(*a.part.mesh, *b.part.mesh, relative_pose(a.pose, b.pose));
     if (b.part.mesh)
@@ -93,6 +110,11 @@ bool RobotMeshes::touch(const Placed& a, const Placed& b) {
 }
 
 LinkDistance RobotMeshes::distance_of(const Placed& a, const Placed& b, double limit) {
+    if (has_solid(a, b)) {
+        const BodyDistance d = boxwood::distance(PosedShape{a.part.body, a.pose},
+                                                 PosedShape{b.part.body, b.pose}, {.limit = limit});
+        return d.found() ? before(limit, d.distance, d.lo, d.hi) : LinkDistance{.lo = limit};
+    }
     if (!a.part.mesh && b.part.mesh)
         return distance_of(b, a, limit);
     if (!a.part.mesh) {

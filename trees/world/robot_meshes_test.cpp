@@ -157,5 +157,35 @@ TEST(RobotMeshes, SayWhichLinkTheyCannotTest) {
     }
 }
 
+/// A closed cube of half side 1 (mesh 0), an open one (mesh 1), and small things inside it.
+TEST(RobotMeshes, LinksAreSolidOnRequest) {
+    TriangleMesh open = cube_mesh(1);
+    open.triangles.pop_back();
+    const std::vector<TriangleMesh> meshes{cube_mesh(1), open};
+    const Vec3<double> tenth{.1, .1, .1};
+    const Robot robot(loose_links({{{LinkMesh{0}, {}}},
+                                   {{LinkMesh{1}, {}}},
+                                   {{LinkSphere{.1}, {}}},
+                                   {{LinkMesh{0, tenth}, {}}}}));
+    std::vector<Pose> poses(4);
+    const RobotMeshes surfaces(robot, meshes), solids(robot, meshes, {.are_solid = true});
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    constexpr double gap = .9;
+    for (const std::uint32_t inner : {2u, 3u}) {
+        EXPECT_FALSE(surfaces.collide(0, inner, poses));
+        EXPECT_NEAR(surfaces.distance(0, inner, poses, inf).distance, gap, 1e-6);
+        EXPECT_TRUE(solids.collide(0, inner, poses));
+        EXPECT_TRUE(solids.collide(inner, 0, poses));
+        EXPECT_EQ(solids.distance(0, inner, poses, inf).hi, 0);
+        EXPECT_EQ(solids.distance(0, inner, poses, .5).hi, 0);
+        EXPECT_FALSE(solids.collide(1, inner, poses)) << "an open mesh is no solid";
+        EXPECT_NEAR(solids.distance(1, inner, poses, inf).distance, gap, 1e-6);
+        EXPECT_EQ(solids.distance(1, inner, poses, gap / 2).lo, gap / 2);
+        poses[inner].translation.x = 2; // outside
+        EXPECT_FALSE(solids.collide(0, inner, poses));
+        EXPECT_NEAR(solids.distance(inner, 0, poses, inf).distance, gap, 1e-6);
+    }
+}
+
 } // namespace
 } // namespace boxwood

@@ -1,6 +1,8 @@
 #include "trees/world/solid.h"
 
+#include "kernels/convex/signed_distance.h"
 #include "kernels/convex/support.h"
+#include "trees/world/detail/deepest.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
@@ -88,99 +90,139 @@ double Solid::depth_of(const Vec3<double>& point) const {
 
 namespace {
 
-/// How deep a solid's surface goes into another one, by branch and bound over its triangles: no
-/// point of a piece is deeper than its middle by more than its radius.
-class Deepest {
-  public:
-    void look(const Solid& into, const TriangleMesh& of, const Pose& pose, double tolerance) {
-        const Aabb<double> box(into.surface().bounds());
-        std::vector<Piece> pieces;
-        for (const auto& triangle : of.triangles) {
-            std::array<Vec3<double>, 3> corners;
-            Aabb<double> around;
-            for (std::size_t i = 0; i < 3; ++i)
-                around.extend(corners[i] = pose(Vec3<double>(of.vertices[triangle[i]])));
-            if (overlaps(around, box))
-                add(pieces, into, corners);
-        }
-        std::ranges::make_heap(pieces, {}, &Piece::hi);
-        // More pieces than that: the bounds are wide, and true.
-        for (std::size_t n = 0; !pieces.empty() && n < 4'000'000; ++n) {
-            if (pieces.front().hi <= lo + tolerance)
-                break;
-            std::ranges::pop_heap(pieces, {}, &Piece::hi);
-            const auto [a, b, c] = pieces.back().corners;
-            pieces.pop_back();
-            const Vec3<double> ab = .5 * (a + b), bc = .5 * (b + c), ca = .5 * (c + a);
-            for (const auto& corners : {std::array{a, ab, ca}, std::array{ab, b, bc},
-                                        std::array{ca, bc, c}, std::array{ab, bc, ca}})
-                if (add(pieces, into, corners))
-                    std::ranges::push_heap(pieces, {}, &Piece::hi);
-        }
-        if (!pieces.empty())
-            hi = std::max(hi, pieces.front().hi);
-        hi = std::max(hi, lo);
-    }
+using detail::CellPiece;
+using detail::Deepest;
+using detail::Depth;
+using detail::TrianglePiece;
 
-    double lo = 0, hi = 0; ///< of the depth
-    Vec3<double> point{};  ///< in the frame of the solid that it is in
+Depth depth_in(const Solid& solid, const Vec3<double>& point, double& error) {
+    const double depth = solid.depth_of(point);
+    error = length(point - Vec3<double>(Vec3<float>(point))) +
+            0x1p-40 * (std::abs(depth) + length(point));
+    return {depth - error, depth + error};
+}
 
-  private:
-    struct Piece {
-        double hi; ///< no point of it is deeper
-        std::array<Vec3<double>, 3> corners;
-    };
+/// A shape that stands in the frame of a solid.
+struct StandingShape {
+    const convex::Shape& shape;
+    const Pose& pose;
 
-    /// False where it cannot be deeper than what is known.
-    bool add(std::vector<Piece>& pieces, const Solid& into,
-             const std::array<Vec3<double>, 3>& corners) {
-        const Vec3<double> middle = (1. / 3) * (corners[0] + corners[1] + corners[2]);
-        double radius = 0;
-        for (const Vec3<double>& corner : corners)
-            radius = std::max(radius, length(corner - middle));
-        const double depth = into.depth_of(middle);
-        const double off = length(middle - Vec3<double>(Vec3<float>(middle))) +
-                           0x1p-40 * (std::abs(depth) + length(middle));
-        if (depth - off > lo) {
-            lo = depth - off;
-            point = middle;
-        }
-        const double hi_of_piece = depth + off + radius * (1 + 0x1p-40);
-        if (!(hi_of_piece > lo))
-            return false;
-        pieces.push_back({hi_of_piece, corners});
-        return true;
+    convex::SignedDistance from(const Vec3<double>& point) const {
+        return convex::signed_distance(convex::Sphere{0}, {Pose{}.rotation, point}, shape, pose);
     }
 };
 
-double size_of(const Solid& solid) {
-    const Aabb<double> box(solid.surface().bounds());
-    return box.is_empty() ? 0 : length(box.max - box.min);
+/// The triangles of a mesh that may reach into a box.
+std::vector<TrianglePiece> pieces_in(const Aabb<double>& box, const TriangleMesh& mesh,
+                                     const Pose& pose) {
+    std::vector<TrianglePiece> pieces;
+    for (const auto& triangle : mesh.triangles) {
+        TrianglePiece piece;
+        Aabb<double> around;
+        for (std::size_t i = 0; i < 3; ++i)
+            around.extend(piece.corners[i] = pose(Vec3<double>(mesh.vertices[triangle[i]])));
+        if (overlaps(around, box))
+            pieces.push_back(piece);
+    }
+    return pieces;
+}
+
+/// How deep a mesh goes into a solid. Points become those of another frame by `to`.
+void look_into_solid(Deepest& deepest, const Solid& solid, const TriangleMesh& mesh,
+                     const Pose& pose, const Pose& to) {
+    const auto measure = [&](const TrianglePiece& piece) -> Deepest::Measured {
+        double error = 0;
+        const Depth depth = depth_in(solid, piece.middle(), error);
+        return {depth.lo, depth.hi + piece.radius(), to(piece.middle()), error};
+    };
+    deepest.look(pieces_in(Aabb<double>(solid.surface().bounds()), mesh, pose), measure);
+}
+
+void look_into_shape(Deepest& deepest, const StandingShape& shape, const TriangleMesh& mesh) {
+    const auto measure = [&](const TrianglePiece& piece) -> Deepest::Measured {
+        const convex::SignedDistance d = shape.from(piece.middle());
+        return {-d.hi, piece.radius() - d.lo, piece.middle(), d.hi - d.lo};
+    };
+    deepest.look(pieces_in(convex::bounds(shape.shape, shape.pose), mesh, Pose{}), measure);
+}
+
+/// How deep the surface of a shape goes into a solid, cell by cell of the space where both are. A
+/// place of that surface is the nearest to the middle of a cell; what it is off is measured.
+void look_at_surface(Deepest& deepest, const Solid& solid, const StandingShape& shape) {
+    const Aabb<double> of_solid(solid.surface().bounds()),
+        of_shape = convex::bounds(shape.shape, shape.pose);
+    const Aabb<double> both{max(of_solid.min, of_shape.min), min(of_solid.max, of_shape.max)};
+    if (both.is_empty())
+        return;
+    const auto measure = [&](const CellPiece& cell) -> Deepest::Measured {
+        const Vec3<double> middle = cell.middle();
+        const double radius = cell.radius();
+        const convex::SignedDistance from = shape.from(middle);
+        if (from.lo > radius || -from.hi > radius)
+            return {0, 0, {}, 0}; // no surface
+        double error = 0;
+        const double hi = depth_in(solid, middle, error).hi + radius;
+        const convex::SignedDistance off = shape.from(from.point_b);
+        const double lo =
+            depth_in(solid, from.point_b, error).lo - std::max(std::abs(off.lo), std::abs(off.hi));
+        return {lo, hi, from.point_b, error + (from.hi - from.lo)};
+    };
+    deepest.look(std::vector{CellPiece{both}}, measure);
+}
+
+double size_of(const Aabb<double>& box) { return box.is_empty() ? 0 : length(box.max - box.min); }
+double size_of(const Solid& solid) { return size_of(Aabb<double>(solid.surface().bounds())); }
+
+void require_tolerance(double tolerance) {
+    if (!(tolerance >= 0))
+        throw std::invalid_argument("the tolerance of a signed distance must be at least 0");
+}
+
+SolidDistance apart_by(const MeshDistance& d) {
+    return {d.distance, d.lo, d.hi, d.point_a, d.point_b};
+}
+
+/// A pose turns and rounds, by so much.
+SolidDistance deep_by(const Deepest& deepest, double rounded) {
+    const double lo = std::max(deepest.lo() - rounded, 0.), hi = deepest.hi() + rounded;
+    return {0. - deepest.lo(), 0. - hi, 0. - lo, deepest.point(), deepest.point()};
 }
 
 } // namespace
 
 SolidDistance signed_distance(const Solid& a, const Solid& b, const Pose& b_in_a, double tolerance,
                               Work* work) {
-    if (!(tolerance >= 0))
-        throw std::invalid_argument("the tolerance of a signed distance must be at least 0");
-    if (!collide(a, b, b_in_a, work)) {
-        const MeshDistance apart = distance(a.surface(), b.surface(), b_in_a, {}, work);
-        return {apart.distance, apart.lo, apart.hi, apart.point_a, apart.point_b};
-    }
+    require_tolerance(tolerance);
+    if (!collide(a, b, b_in_a, work))
+        return apart_by(distance(a.surface(), b.surface(), b_in_a, {}, work));
     if (tolerance == 0)
         tolerance = .01 * std::min(size_of(a), size_of(b));
-    const Pose a_in_b = relative_pose(b_in_a, Pose{});
-    Deepest of_b, of_a;
-    of_b.look(a, b.surface().mesh(), b_in_a, tolerance);
-    of_a.lo = of_b.lo;
-    of_a.look(b, a.surface().mesh(), a_in_b, tolerance);
-    const bool is_of_a = of_a.lo > of_b.lo;
-    const Vec3<double> point = is_of_a ? b_in_a(of_a.point) : of_b.point;
-    // A pose turns and rounds.
-    const double rounded = 0x1p-44 * (size_of(a) + size_of(b) + length(b_in_a.translation));
-    const double lo = std::max(of_a.lo - rounded, 0.), hi = std::max(of_a.hi, of_b.hi) + rounded;
-    return {0. - std::max(of_a.lo, 0.), 0. - hi, 0. - lo, point, point};
+    Deepest deepest(tolerance);
+    look_into_solid(deepest, a, b.surface().mesh(), b_in_a, Pose{});
+    look_into_solid(deepest, b, a.surface().mesh(), relative_pose(b_in_a, Pose{}), b_in_a);
+    return deep_by(deepest, 0x1p-44 * (size_of(a) + size_of(b) + length(b_in_a.translation)));
+}
+
+SolidDistance signed_distance(const Solid& solid, const convex::Shape& shape,
+                              const Pose& shape_in_solid, double tolerance, Work* work) {
+    require_tolerance(tolerance);
+    const Answer touch = collide(solid, shape, shape_in_solid, work).answer;
+    const auto apart = [&] { return distance(solid.surface(), shape, shape_in_solid, {}, work); };
+    if (touch == Answer::no)
+        return apart_by(apart());
+    if (tolerance == 0) // of a shape that has no size, of the solid
+        for (const double size : {size_of(convex::bounds(shape, Pose{})), size_of(solid)})
+            if (tolerance == 0 || .01 * size < tolerance)
+                tolerance = .01 * size;
+    Deepest deepest(tolerance);
+    const StandingShape standing{shape, shape_in_solid};
+    look_into_shape(deepest, standing, solid.surface().mesh());
+    look_at_surface(deepest, solid, standing);
+    SolidDistance found =
+        deep_by(deepest, 0x1p-44 * (size_of(solid) + length(shape_in_solid.translation)));
+    if (touch == Answer::maybe) // they may be apart, too, by what rounding leaves open
+        found.hi = std::max(found.hi, apart().hi);
+    return found;
 }
 
 Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,

@@ -72,6 +72,13 @@ struct SolidDistance {
 SolidDistance signed_distance(const Solid& a, const Solid& b, const Pose& b_in_a,
                               double tolerance = 0, Work* work = nullptr);
 
+/// The same of a solid and a convex shape, which stands at `shape_in_solid`: the surface of a plane
+/// or a half-space is its flat. hi - lo is at most `tolerance` and 2^-20 of the sizes and of how
+/// far both are from the origin where they are deep in each other.
+SolidDistance signed_distance(const Solid& solid, const convex::Shape& shape,
+                              const Pose& shape_in_solid, double tolerance = 0,
+                              Work* work = nullptr);
+
 /// Whether a solid and a convex shape share a point, as mesh_shape.h says of its surface.
 Decision collide(const Solid& solid, const convex::Shape& shape, const Pose& shape_in_solid,
                  Work* work = nullptr);

@@ -29,10 +29,10 @@ void add_robot(CLI::App& demo) {
     robot->add_option("--seed", options->seed, "of the random state")->capture_default_str();
     robot->footer("Example: boxwood demo robot panda.urdf --srdf panda.srdf");
     robot->callback([options] {
-        std::cout << robot_demo(*options,
-                                [](const Robot& made, std::span<const TriangleMesh> meshes) {
-                                    return std::make_unique<RobotMeshes>(made, meshes);
-                                });
+        std::cout << robot_demo(
+            *options, [](const Robot& made, std::span<const TriangleMesh> meshes, bool are_solid) {
+                return std::make_unique<RobotMeshes>(made, meshes, RobotMeshesOptions{are_solid});
+            });
     });
 }
 

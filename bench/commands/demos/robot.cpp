@@ -213,7 +213,8 @@ std::string robot_demo(const RobotDemo& demo, const MakeLinkNarrowPhase& make_na
             throw BadInput(fmt::format("{}: fewer than two links have a <collision> element: there "
                                        "is no pair to look at",
                                        demo.files.urdf));
-        return lesson_of(demo, *robot, *make_narrow_phase(robot->robot, robot->meshes));
+        return lesson_of(demo, *robot,
+                         *make_narrow_phase(robot->robot, robot->meshes, demo.files.are_solid));
     } catch (...) {
         rethrow_as_bad_input();
     }

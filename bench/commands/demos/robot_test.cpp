@@ -43,9 +43,10 @@ class RobotDemoTest : public ::testing::Test {
         return (folder_ / name).string();
     }
     static std::string text_of(const RobotDemo& demo) {
-        return robot_demo(demo, [](const Robot& robot, std::span<const TriangleMesh> meshes) {
-            return std::make_unique<RobotMeshes>(robot, meshes);
-        });
+        return robot_demo(
+            demo, [](const Robot& robot, std::span<const TriangleMesh> meshes, bool are_solid) {
+                return std::make_unique<RobotMeshes>(robot, meshes, RobotMeshesOptions{are_solid});
+            });
     }
     fs::path folder_;
 };

@@ -1,47 +1,61 @@
 #pragma once
 
+#include "bench/commands/queries/query_times.h"
+#include "bench/commands/queries/user_mesh.h"
 #include "bench/io/bad_input.h"
 #include "kernels/convex/shapes.h"
-#include "kernels/primitives/triangle.h"
+#include "trees/world/bodies/body_shape.h"
 #include "trees/world/pose.h"
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace boxwood::bench {
 
-/// What a query takes as a body, for its help.
-inline constexpr const char* body_forms =
-    "a mesh file (OBJ, PLY, STL, ...), or box:x,y,z, sphere:radius, capsule:radius,length, "
-    "cylinder:radius,length. A mesh is its surface, and so is a box beside a mesh or a box; what "
-    "is "
-    "round, and a box beside it, is solid";
+/// What a query takes as a body: in a line, and one form a line for the end of its help.
+inline constexpr const char* body_form = "a mesh file, box:1,1,1, sphere:.5, or what is below";
+std::string body_forms();
 
-/// A primitive in the place of a mesh file: "box:x,y,z" (full side lengths), "sphere:radius",
-/// "capsule:radius,length" (of its segment, without the round ends), "cylinder:radius,length", the
-/// last two along z. Nothing of other texts. Throws BadInput for numbers that make no sense.
-std::optional<convex::Shape> read_primitive(const std::string& text);
+/// How bodies are read.
+struct BodyReading {
+    bool is_solid = false; ///< closed meshes are solids
+    BadTriangles bad_triangles = BadTriangles::keep;
+    MeshVolume volume = MeshVolume::obb; ///< of the trees of meshes
+    QueryTimes* times = nullptr;         ///< has what it took, if given
+};
 
-/// The triangles of a mesh file, or of a box. Throws BadInput, and as load_mesh.
-TriangleMesh read_body(const std::string& body);
+/// A body as it was written, in the place of a mesh file: see body_forms.
+struct NamedBody {
+    BodyShape shape;
+    /// A box whose 12 triangles the shape is.
+    std::optional<convex::Box> box{};
+    std::vector<std::uint32_t> numbers{}; ///< UserMesh::numbers
 
-/// How far the corners of a box's triangles are off, as floats, rounded up; 0 of other shapes.
-double rounding_of_mesh(const convex::Shape& shape);
+    bool has_triangles() const { return shape.shape_class() != ShapeClass::convex; }
+};
+
+/// Whether a box beside this body is its surface: a mesh file, a height field or another box.
+bool is_surface_form(const std::string& text);
+
+/// Reads and builds it. box_is_surface: a box is 12 triangles, else a convex shape. Throws BadInput
+/// for numbers that make no sense, for a mesh that is no solid and should be one, and as load_mesh.
+NamedBody read_body(const std::string& text, bool box_is_surface, const BodyReading& how);
+
+/// The option --volume, by the names of `mesh_volumes`.
+void add_volume_option(CLI::App& app, MeshVolume& volume);
+
+/// How far the corners of a box's triangles are off, as floats, rounded up.
+double rounding_of_mesh(const convex::Box& box);
 
 /// 16 numbers, row by row, parted by spaces or commas; the identity if empty. Throws BadInput,
 /// which names the option.
 Pose read_pose(const std::string& text, const std::string& option);
-
-/// make(), with the name of the body before what is wrong with it.
-template <class Make> auto named(const std::string& body, const Make& make) {
-    try {
-        return make();
-    } catch (const std::invalid_argument& error) {
-        throw BadInput(fmt::format("{}: {}", body, error.what()));
-    }
-}
+/// The same, or x,y,z alone; not empty.
+Pose read_place(const std::string& text, const std::string& option);
 
 } // namespace boxwood::bench

@@ -1,31 +1,26 @@
 #pragma once
 
-#include "kernels/convex/shapes.h"
-#include "trees/world/continuous.h"
-#include "trees/world/mesh_contacts.h"
-#include "trees/world/mesh_pairs.h"
-#include "trees/world/solid.h"
+#include "bench/commands/queries/bodies.h"
+#include "trees/world/bodies/shape_pairs.h"
 
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 namespace boxwood::bench {
 
-/// Two bodies of a query, each a mesh, as its surface or as a solid, or a primitive, which is
-/// solid. B stands at `b_in_a`, and answers are in A's frame. Triangles of primitives have the
-/// number `no_triangle`. The triangles of a box with half sides that no float is are off by their
-/// rounding: whether and when it touches and how far it is is then said of the box itself.
+/// Two bodies of a query (body_forms), of which B stands at `b_in_a`; answers are in A's frame.
+/// What has no triangles or points has the number `no_part`; triangles have those of their files.
+/// The triangles of a box with half sides that no float is are off by their rounding: whether and
+/// when it touches and how far it is is then said of the box itself.
 class BodyPair {
   public:
-    static constexpr std::uint32_t no_triangle = ~0u;
+    static constexpr std::uint32_t no_part = ~0u;
 
-    /// Each a mesh file or a primitive (read_primitive). A box is its surface, of 12 triangles, but
-    /// solid beside a sphere, a capsule or a cylinder. solid: closed meshes and boxes are solids.
-    /// Throws BadInput, and as load_mesh.
-    BodyPair(const std::string& a, const std::string& b, bool solid);
+    /// A box is its surface, of 12 triangles, where the other is a surface, too (is_surface_form).
+    /// Throws as read_body.
+    BodyPair(const std::string& a, const std::string& b, const BodyReading& how);
 
     /// What decides whether they touch, and how far apart they are.
     std::string_view touch_kernel() const;
@@ -33,14 +28,14 @@ class BodyPair {
 
     /// What rounding leaves open touches.
     bool touch(const Pose& b_in_a) const;
-    /// Sorted; of two primitives none.
-    std::vector<Pair> touching_triangles(const Pose& b_in_a, std::size_t limit) const;
+    /// Sorted; of two without triangles none.
+    std::vector<Pair> touching_parts(const Pose& b_in_a, std::size_t limit) const;
     /// 0 where they touch; of solids also where one lies in the other.
-    MeshDistance distance(const Pose& b_in_a) const;
+    BodyDistance distance(const Pose& b_in_a, const DistanceOptions& options = {}) const;
     MeshWithin within(const Pose& b_in_a, double tolerance) const;
     /// Where the surfaces touch; where one solid lies in the other one at the nearest points, whose
     /// depth is at most the true one.
-    std::vector<Contact> contacts(const Pose& b_in_a, const ContactOptions& options) const;
+    std::vector<BodyContact> contacts(const Pose& b_in_a, const ContactOptions& options) const;
 
     struct Path {
         Pose from, to;
@@ -48,19 +43,16 @@ class BodyPair {
     FirstContact first_contact(const Path& a, const Path& b, MotionPath kind) const;
 
   private:
-    using Body = std::variant<MeshTree, Solid, convex::Shape>;
-    static Body read(const std::string& text, bool beside_round, bool solid);
-    static const MeshTree* mesh(const Body& body); ///< none: a primitive
-    bool is_certainly_apart(const Pose& b_in_a) const;
-    std::vector<Contact> contacts_of_surfaces(const Pose& b_in_a,
-                                              const ContactOptions& options) const;
-    MeshDistance distance_of_surfaces(const Pose& b_in_a) const;
-    MeshDistance distance_of_solid_boxes(const Pose& b_in_a) const;
-    MeshDistance distance_of_meshes(const Pose& b_in_a) const;
+    bool are_both_meshes() const { return a_.has_triangles() && b_.has_triangles(); }
+    bool are_solid() const; ///< both, with what is inside
+    BodyDistance distance_of(const BodyShape& a, const BodyShape& b, const Pose& b_in_a,
+                             const DistanceOptions& options) const;
+    BodyDistance distance_of_exact(const Pose& b_in_a, const DistanceOptions& options = {}) const;
+    BodyDistance numbered(BodyDistance found) const;
 
-    Body a_, b_;
-    std::optional<convex::Shape> box_a_, box_b_; ///< those that are meshes here
-    double rounded_ = 0;                         ///< how far their corners are off, together
+    NamedBody a_, b_;
+    BodyShape exact_a_, exact_b_; ///< boxes that are meshes here as convex shapes
+    double rounded_ = 0;          ///< how far the corners of such boxes are off, together
 };
 
 } // namespace boxwood::bench

@@ -102,9 +102,10 @@ void add_query(CLI::App& app, int&) {
     add_query_ccd(*query);
     add_query_meshes(*query);
     add_query_continuous(*query);
-    add_query_robot(*query, [](const Robot& robot, std::span<const TriangleMesh> meshes) {
-        return std::make_unique<RobotMeshes>(robot, meshes);
-    });
+    add_query_robot(
+        *query, [](const Robot& robot, std::span<const TriangleMesh> meshes, bool are_solid) {
+            return std::make_unique<RobotMeshes>(robot, meshes, RobotMeshesOptions{are_solid});
+        });
 }
 
 } // namespace boxwood::bench

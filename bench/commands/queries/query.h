@@ -1,8 +1,10 @@
 #pragma once
 
 #include "bench/commands/queries/robot_case.h"
+#include "bench/commands/queries/user_mesh.h"
 #include "trees/builder.h"
 #include "trees/layout.h"
+#include "trees/world/mesh_tree.h"
 #include "trees/world/robot_collision.h"
 
 #include <memory>
@@ -104,10 +106,14 @@ struct MeshesQuery {
     std::string pose_a, pose_b; ///< 16 numbers, row by row; the identity if empty
     std::string kernel;         ///< the one there is, if empty
     std::optional<double> tolerance;
-    bool solid = false;            ///< closed meshes, and what lies inside touches
-    bool is_signed = false;        ///< distance: below 0 where they overlap
-    bool reduce = false;           ///< contacts: at most four
-    std::size_t limit = 1'000'000; ///< touching pairs of triangles that are looked at
+    bool solid = false; ///< closed meshes, and what lies inside touches
+    BadTriangles bad_triangles = BadTriangles::keep;
+    MeshVolume volume = MeshVolume::obb;
+    bool is_signed = false;            ///< distance: below 0 where they overlap
+    double relative = 0, absolute = 0; ///< distance: how much too far it may be
+    bool reduce = false;               ///< contacts: at most four
+    std::size_t limit = 1'000'000;     ///< touching pairs of triangles that are looked at
+    bool times = false;                ///< QueryTimes, too
     Format format;
 };
 /// Prints whether they touch, how far apart they are, whether they are near, or where they touch.
@@ -120,6 +126,10 @@ struct ContinuousQuery {
     std::string a, b;
     std::string from_a, to_a, from_b, to_b; ///< 16 numbers each, row by row
     std::string motion = "linear";          ///< or screw
+    bool solid = false;                     ///< closed meshes: what begins inside touches at 0
+    BadTriangles bad_triangles = BadTriangles::keep;
+    MeshVolume volume = MeshVolume::obb;
+    bool times = false;
     Format format;
 };
 /// Prints whether and when they first touch. Throws BadInput.
@@ -148,7 +158,9 @@ struct RobotQuery {
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> samples; ///< propose pairs by so many
     std::optional<std::string> write_srdf;
-    std::vector<std::string> obstacles; ///< bodies that stand around it, "BODY" or "BODY@x,y,z"
+    std::vector<std::string> obstacles; ///< bodies that stand around it (surroundings.h)
+    std::vector<std::string> allow;     ///< "LINK,LINK" or "LINK,OBSTACLE"
+    bool times = false;
     Format format;
 };
 /// Prints links, joints and allowed pairs of a robot; and for each state the pairs of links whose

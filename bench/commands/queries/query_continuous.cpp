@@ -24,24 +24,28 @@ void run(const ContinuousQuery& query, std::ostream& out) {
     };
     const BodyPair::Path path_a = path(query.from_a, query.to_a, "a");
     const BodyPair::Path path_b = path(query.from_b, query.to_b, "b");
+    QueryTimes times(query.times);
+    const BodyPair pair(query.a, query.b, {query.solid, query.bad_triangles, query.volume, &times});
     const FirstContact first =
-        BodyPair(query.a, query.b, false).first_contact(path_a, path_b, kind);
+        times.answering([&] { return pair.first_contact(path_a, path_b, kind); });
     const bool hit = first.hit != Answer::no; // left open: on the safe side
     const double t_hit =
         first.hit == Answer::maybe ? std::numeric_limits<double>::quiet_NaN() : first.t_hit;
-    if (query.format.json)
-        out << fmt::format("{{\"hit\":{},\"t_free\":{},\"t_hit\":{}}}\n", hit ? "true" : "false",
-                           json_number(first.t_free), json_number(t_hit));
-    else
+    if (query.format.json) {
+        out << fmt::format("{{\"hit\":{},\"t_free\":{},\"t_hit\":{}{}}}\n", hit ? "true" : "false",
+                           json_number(first.t_free), json_number(t_hit), times.json());
+    } else {
         out << (query.format.header ? "hit,t_free,t_hit\n" : "")
             << fmt::format("{},{},{}\n", hit ? 1 : 0, first.t_free, t_hit);
+        times.report();
+    }
 }
 
 void add_query_continuous(CLI::App& query) {
     auto options = std::make_shared<ContinuousQuery>();
     CLI::App* command =
         query.add_subcommand("continuous", "when two moving meshes or primitives first touch");
-    command->add_option("A", options->a, body_forms)->required();
+    command->add_option("A", options->a, body_form)->required();
     command->add_option("B", options->b, "another, or the same")->required();
     command->add_option("--from-a", options->from_a,
                         "where A starts: 16 numbers, a 4 x 4 matrix row by row");
@@ -54,8 +58,14 @@ void add_query_continuous(CLI::App& query) {
                      "one axis and along it")
         ->check(CLI::IsMember({"linear", "screw"}))
         ->capture_default_str();
+    command->add_flag("--solid", options->solid,
+                      "closed meshes are solids: what begins inside one touches it at time 0");
+    add_bad_triangles_option(*command, options->bad_triangles);
+    add_volume_option(*command, options->volume);
+    add_times_option(*command, options->times);
     add_format_options(*command, options->format);
     command->footer(
+        body_forms() +
         "Prints hit,t_free,t_hit: up to t_free they do not touch, whatever is thin; at t_hit they "
         "do, within 2^-36 of\ntheir size, or, of cylinders and other curved shapes, within what "
         "bounds of their distance leave open; nan (JSON: null) where it is left open whether they "

@@ -114,8 +114,14 @@ TEST_F(QueryMeshes, SignedDistancesGoBelowZero) {
     const auto [apart, from, to] = numbers(query);
     EXPECT_NEAR(apart, .9, 1e-8);
     EXPECT_TRUE(from <= .9 && to >= .9 && to - from < 1e-8);
-    query.a = "sphere:1";
-    EXPECT_THAT(complaint(query), HasSubstr("sphere:1: --signed takes two primitives"));
+    query.a = "sphere:1.5"; // from -1.5 to 1.5, and the cube from 1 on
+    const auto [deep, deep_lo, deep_hi] = numbers(query);
+    EXPECT_TRUE(deep_lo <= -.5 && -.5 <= deep_hi) << deep;
+    EXPECT_LE(deep_hi - deep_lo, .035); // a hundredth of the cube
+    query.a = put("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    EXPECT_THAT(complaint(query), HasSubstr("the mesh is no solid"));
+    query.a = "height_field:1,1," + put("flat.csv", "0,0\n0,0\n");
+    EXPECT_THAT(complaint(query), HasSubstr("--signed: a signed distance is that of"));
 }
 
 TEST_F(QueryMeshes, ToleranceIsAYesOrNo) {

@@ -1,11 +1,12 @@
 /// `boxwood query robot`: self-collision of a robot that a URDF file describes.
 
 #include "bench/commands/command.h"
+#include "bench/commands/queries/bodies.h"
 #include "bench/commands/queries/query.h"
 #include "bench/commands/queries/robot_case.h"
 #include "bench/commands/queries/robot_picture.h"
+#include "bench/commands/queries/robot_printer.h"
 #include "bench/commands/queries/surroundings.h"
-#include "bench/io/json.h"
 #include "bench/io/say.h"
 #include "kernels/suggest.h"
 #include "scenes/robots/random_values.h"
@@ -137,6 +138,11 @@ void for_each_state(const RobotQuery& query, const Robot& robot, std::vector<dou
     }
 }
 
+std::uint64_t number_of_states(const RobotQuery& query) {
+    const std::uint64_t n = query.random.value_or(1);
+    return query.steps ? (n - 1) * *query.steps + 1 : n;
+}
+
 void write_picture(const std::string& name, const std::string& robot,
                    const std::vector<LeastOfState>& least) {
     if (least.empty())
@@ -148,196 +154,43 @@ void write_picture(const std::string& name, const std::string& robot,
         throw BadInput(fmt::format("--svg {}: cannot be written", name));
 }
 
-class RobotPrinter {
-  public:
-    RobotPrinter(const RobotCase& robot, std::ostream& out) : robot_(robot), text_(out) {}
-    virtual ~RobotPrinter() = default;
-    virtual void begin() = 0;
-    virtual void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
-                       const Surroundings* around) = 0;
-    virtual void end() {}
-
-  protected:
-    const std::string& link(std::uint32_t i) const { return robot_.robot.links()[i].name; }
-
-    const RobotCase& robot_;
-    BlockWriter text_;
-};
-
-/// One line per item, which begins with what it is.
-class RobotLines final : public RobotPrinter {
-  public:
-    RobotLines(const RobotCase& robot, bool header, std::ostream& out)
-        : RobotPrinter(robot, out), header_(header) {}
-
-    void begin() override {
-        const Robot& robot = robot_.robot;
-        if (header_)
-            text_ << "link,name,parent,geometries\njoint,name,type,lower,upper\n"
-                     "allowed,link,link,reason\nvalue,state,joint,value\n"
-                     "candidate,state,link,link\nfiltered,state,link,link\n"
-                     "colliding,state,link,link\nleast,state,link,link,distance,lo,hi\n"
-                     "hit,state,link,obstacle\nclearance,state,link,obstacle,distance,lo,hi\n";
-        for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
-            const std::uint32_t parent = robot.kinematics().parents()[i];
-            text_ << fmt::format("link,{},{},{}\n", link(i), parent == i ? "" : link(parent),
-                                 robot.links()[i].geometries.size());
-        }
-        for (const JointDescription& joint : robot.joints())
-            text_ << fmt::format("joint,{},{},{}\n", joint.name, name_of(joint.kind),
-                                 joint.kind == JointKind::fixed ||
-                                         joint.kind == JointKind::continuous
-                                     ? ","
-                                     : fmt::format("{},{}", joint.lower, joint.upper));
-        for (const AllowedPair& pair : robot_.allowed.pairs())
-            text_ << fmt::format("allowed,{},{},{}\n", link(pair.a), link(pair.b),
-                                 name_of(pair.reason));
-    }
-    void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
-               const Surroundings* around) override {
-        for (std::size_t k = 0; k < values.size(); ++k)
-            text_ << fmt::format("value,{},{},{}\n", i, robot_.robot.value_name(k), values[k]);
-        pairs("candidate", i, found.candidates);
-        pairs("filtered", i, found.tested);
-        pairs("colliding", i, found.colliding);
-        if (found.nearest)
-            text_ << fmt::format("least,{},{},{},{},{},{}\n", i, link(found.nearest->a),
-                                 link(found.nearest->b), found.least.distance, found.least.lo,
-                                 found.least.hi);
-        if (!around)
-            return;
-        for (const auto& [link_number, obstacle] : around->hits())
-            text_ << fmt::format("hit,{},{},{}\n", i, link(link_number), obstacle);
-        if (const auto nearest = around->nearest()) {
-            const auto& [between, d] = *nearest;
-            text_ << fmt::format("clearance,{},{},{},{},{},{}\n", i, link(between.link),
-                                 between.obstacle, d.distance, d.lo, d.hi);
-        }
-    }
-
-  private:
-    void pairs(std::string_view kind, std::size_t i, std::span<const Pair> pairs) {
-        for (const Pair p : pairs)
-            text_ << fmt::format("{},{},{},{}\n", kind, i, link(p.a), link(p.b));
-    }
-    bool header_;
-};
-
-class RobotJson final : public RobotPrinter {
-  public:
-    using RobotPrinter::RobotPrinter;
-
-    void begin() override {
-        const Robot& robot = robot_.robot;
-        text_ << fmt::format("{{\"robot\":{},\"links\":[", json_string(robot.name()));
-        for (std::uint32_t i = 0; i < robot.links().size(); ++i) {
-            const std::uint32_t parent = robot.kinematics().parents()[i];
-            text_ << fmt::format("{}{{\"name\":{},\"parent\":{},\"geometries\":{}}}", i ? "," : "",
-                                 name(i), parent == i ? "null" : name(parent),
-                                 robot.links()[i].geometries.size());
-        }
-        text_ << "],\"joints\":[";
-        for (std::size_t j = 0; j < robot.joints().size(); ++j) {
-            const JointDescription& joint = robot.joints()[j];
-            const bool limited =
-                joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic;
-            text_ << fmt::format(
-                "{}{{\"name\":{},\"type\":\"{}\",\"parent\":{},\"child\":{},\"lower\":{},\"upper\":"
-                "{},\"mimics\":{}}}",
-                j ? "," : "", json_string(joint.name), name_of(joint.kind), name(joint.parent),
-                name(joint.child), limited ? json_number(joint.lower) : "null",
-                limited ? json_number(joint.upper) : "null",
-                joint.mimic ? json_string(robot.joints()[joint.mimic->joint].name) : "null");
-        }
-        text_ << "],\"allowed_pairs\":[";
-        const std::vector<AllowedPair> allowed = robot_.allowed.pairs();
-        for (std::size_t k = 0; k < allowed.size(); ++k)
-            text_ << fmt::format("{}{{\"links\":[{},{}],\"reason\":\"{}\",\"note\":{}}}",
-                                 k ? "," : "", name(allowed[k].a), name(allowed[k].b),
-                                 name_of(allowed[k].reason), json_string(allowed[k].note));
-        text_ << "],\"states\":[";
-    }
-    void state(std::size_t i, std::span<const double> values, const SelfCollision& found,
-               const Surroundings* around) override {
-        text_ << (i ? ",{" : "{") << "\"values\":{";
-        for (std::size_t k = 0; k < values.size(); ++k)
-            text_ << fmt::format("{}{}:{}", k ? "," : "", json_string(robot_.robot.value_name(k)),
-                                 json_number(values[k]));
-        text_ << "}";
-        pairs("candidate_pairs", found.candidates);
-        pairs("filtered_pairs", found.tested);
-        pairs("colliding", found.colliding);
-        text_ << fmt::format(
-            ",\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}",
-            json_number(found.least.distance), json_number(found.least.lo),
-            json_number(found.least.hi),
-            found.nearest ? fmt::format("[{},{}]", name(found.nearest->a), name(found.nearest->b))
-                          : "null");
-        if (around)
-            obstacles(*around);
-        text_ << "}";
-    }
-    void end() override { text_ << "]}\n"; }
-
-  private:
-    std::string name(std::uint32_t i) const { return json_string(link(i)); }
-    std::string json_of(const Surroundings::Meeting& m) const {
-        return fmt::format("[{},{}]", name(m.link), json_string(m.obstacle));
-    }
-    void obstacles(const Surroundings& around) {
-        text_ << ",\"obstacles\":{\"hits\":[";
-        bool is_first = true;
-        for (const Surroundings::Meeting& m : around.hits()) {
-            text_ << (is_first ? "" : ",") << json_of(m);
-            is_first = false;
-        }
-        const auto nearest = around.nearest();
-        const BodyDistance d = nearest ? nearest->second : BodyDistance();
-        text_ << fmt::format("],\"distance\":{},\"lo\":{},\"hi\":{},\"nearest\":{}}}",
-                             json_number(d.distance), json_number(d.lo), json_number(d.hi),
-                             nearest ? json_of(nearest->first) : "null");
-    }
-    void pairs(std::string_view key, std::span<const Pair> pairs) {
-        text_ << fmt::format(",\"{}\":[", key);
-        for (std::size_t k = 0; k < pairs.size(); ++k)
-            text_ << fmt::format("{}[{},{}]", k ? "," : "", name(pairs[k].a), name(pairs[k].b));
-        text_ << "]";
-    }
-};
-
 } // namespace
 
 void run(const RobotQuery& query, const MakeLinkNarrowPhase& make_narrow_phase, std::ostream& out) {
     try {
         if (query.state && !query.files.srdf)
             throw BadInput("--state names a state of an SRDF file; give one by --srdf");
-        const std::unique_ptr<RobotCase> robot = read_robot(query.files);
-        const std::unique_ptr<LinkNarrowPhase> narrow_phase =
-            make_narrow_phase(robot->robot, robot->meshes);
+        QueryTimes times(query.times);
+        const std::unique_ptr<RobotCase> robot =
+            times.reading([&] { return read_robot(query.files); });
+        const std::unique_ptr<LinkNarrowPhase> narrow_phase = times.building(
+            [&] { return make_narrow_phase(robot->robot, robot->meshes, query.files.are_solid); });
         propose_allowed(query, *narrow_phase, *robot);
+        const AllowedByUser allowed(query.allow, query.obstacles, *robot);
         if (query.write_srdf)
             write_allowed(query, *robot);
         std::vector<double> values = chosen_state(query, *robot);
         RobotSelfCollision self(robot->robot, robot->boxes, robot->allowed, *narrow_phase);
         std::optional<Surroundings> around;
         if (!query.obstacles.empty())
-            around.emplace(*robot, query.obstacles);
-        std::unique_ptr<RobotPrinter> printer;
-        if (query.format.json)
-            printer = std::make_unique<RobotJson>(*robot, out);
-        else
-            printer = std::make_unique<RobotLines>(*robot, query.format.header, out);
+            around.emplace(*robot, allowed, query.files, times);
+        const std::unique_ptr<RobotPrinter> printer = make_robot_printer(*robot, query.format, out);
         printer->begin();
         std::vector<LeastOfState> least;
+        const double share = 1 / static_cast<double>(number_of_states(query));
         for_each_state(query, robot->robot, values, [&](std::uint64_t i, double time) {
-            const SelfCollision& found = self.check(values);
-            if (around)
-                around->place(values);
-            printer->state(i, values, found, around ? &*around : nullptr);
-            if (query.svg && found.nearest)
-                least.push_back({time, found.least, !found.colliding.empty()});
+            const SelfCollision* found = nullptr;
+            const auto of_obstacles = times.answering(
+                [&]() -> std::optional<Surroundings::Answer> {
+                    found = &self.check(values);
+                    return around ? std::optional(around->answer(values)) : std::nullopt;
+                },
+                share);
+            printer->state(i, values, *found, of_obstacles ? &*of_obstacles : nullptr);
+            if (query.svg && found->nearest)
+                least.push_back({time, found->least, !found->colliding.empty()});
         });
-        printer->end();
+        printer->end(times);
         if (query.svg)
             write_picture(*query.svg, robot->robot.name(), least);
     } catch (...) {
@@ -374,22 +227,31 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
     robot->add_option("--write-srdf", options->write_srdf,
                       "write the allowed pairs, with what --srdf holds else, as an SRDF file");
-    robot->add_option("--obstacle", options->obstacles, obstacle_forms);
+    robot->add_option("--obstacle", options->obstacles, obstacle_form);
+    robot->add_option("--allow", options->allow,
+                      "LINK,LINK or LINK,OBSTACLE: the two may touch; an obstacle by its NAME, or "
+                      "as it is written; may be repeated");
+    add_times_option(*robot, options->times);
     add_format_options(*robot, options->format);
     robot->footer(
+        body_forms() +
         "Each line begins with what it is: link, joint, allowed, and for each state value,\n"
         "candidate (boxes of the links overlap), filtered (those that are not allowed), "
         "colliding,\n"
         "least (the least distance of links that are not allowed, 0 if two collide: the true one\n"
         "lies between lo and hi); with --obstacle, hit (a link touches one) and clearance (the "
         "least\n"
-        "distance of a link and an obstacle). Without --srdf adjacent links are allowed to "
+        "distance of a link and an obstacle). --times is of a state. Without --srdf adjacent links "
+        "are allowed to "
         "collide.\n\n"
         "Examples:\n"
         "  boxwood query robot panda.urdf --srdf panda.srdf --joints \"panda_joint4=-2.3\"\n"
         "  boxwood query robot z1.urdf --samples 10000 --write-srdf z1.srdf --random 100 --seed 1\n"
         "  boxwood query robot panda.urdf --random 8 --steps 50 --svg least.svg\n"
-        "  boxwood query robot panda.urdf --obstacle box:2,2,.1@0,0,-.05 --obstacle shelf.obj");
+        "  boxwood query robot panda.urdf --obstacle table=box:2,2,.1@0,0,-.05 --obstacle "
+        "shelf.obj "
+        "\\\n"
+        "    --allow panda_link0,table");
     robot->callback([options, narrow_phase = std::move(narrow_phase)] {
         run(*options, narrow_phase, std::cout);
     });

@@ -50,7 +50,7 @@ class BallsOfLinks final : public LinkNarrowPhase {
     const Robot& robot_;
 };
 
-const MakeLinkNarrowPhase balls = [](const Robot& robot, std::span<const TriangleMesh>) {
+const MakeLinkNarrowPhase balls = [](const Robot& robot, std::span<const TriangleMesh>, bool) {
     return std::make_unique<BallsOfLinks>(robot);
 };
 
@@ -262,7 +262,7 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
     };
     std::ostringstream out;
     run(
-        query_, [](const Robot&, auto) { return std::make_unique<Boxes>(); }, out);
+        query_, [](const Robot&, auto, bool) { return std::make_unique<Boxes>(); }, out);
     const std::string text = out.str();
     EXPECT_THAT(text, AllOf(HasSubstr("link,panda_link8,panda_link7,0\n"),
                             HasSubstr("allowed,panda_link0,panda_link1,adjacent\n"),
@@ -283,7 +283,7 @@ TEST_F(QueryRobot, SharedPandaIsReadWithItsPairs) {
     query_.state.reset();
     std::ostringstream proposed;
     run(
-        query_, [](const Robot&, auto) { return std::make_unique<Boxes>(); }, proposed);
+        query_, [](const Robot&, auto, bool) { return std::make_unique<Boxes>(); }, proposed);
     EXPECT_EQ(adjacent(text).size(), 10u);
     EXPECT_EQ(adjacent(proposed.str()), adjacent(text));
 }

@@ -3,6 +3,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/io/say.h"
 #include "scenes/robots/urdf.h"
+#include "trees/queries/sides.h"
 #include "trees/world/propose_pairs.h"
 
 #include <CLI/CLI.hpp>
@@ -17,10 +18,23 @@ void add_robot_options(CLI::App& app, RobotFiles& files) {
     app.add_option("--srdf", files.srdf, "an SRDF file: pairs that may collide, states");
     app.add_option("--package-path", files.package_paths,
                    "a folder that holds the packages of package:// meshes; may be repeated");
+    app.add_flag("--solid", files.are_solid,
+                 "closed meshes of links are solids: what lies inside one touches it");
+    add_bad_triangles_option(app, files.bad_triangles);
 }
 
 std::unique_ptr<RobotCase> read_robot(const RobotFiles& files) {
-    UrdfRobot read = read_urdf(files.urdf, files.package_paths);
+    UrdfRobot read =
+        read_urdf(files.urdf, files.package_paths, [&](const std::filesystem::path& file) {
+            TriangleMesh mesh =
+                read_user_mesh(file.string(), files.bad_triangles, files.are_solid).mesh;
+            const std::size_t open = files.are_solid ? open_edges(mesh) : 0;
+            if (open > 0)
+                say(fmt::format("boxwood: {}: {} edges belong to an odd number of triangles: it is "
+                                "no solid, and its surface alone counts\n",
+                                file.string(), open));
+            return mesh;
+        });
     std::vector<Aabb<float>> mesh_boxes(read.meshes.size());
     for (std::size_t i = 0; i < read.meshes.size(); ++i)
         for (std::size_t t = 0; t < read.meshes[i].triangles.size(); ++t)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/commands/queries/bodies.h"
 #include "bench/commands/queries/robot_case.h"
 #include "trees/world/bodies/robot_bodies.h"
 
@@ -15,36 +16,57 @@
 namespace boxwood::bench {
 
 /// How an obstacle is written, for help.
-inline constexpr const char* obstacle_forms =
-    "what stands around the robot, in the frame of its root: BODY or BODY@x,y,z, where it is moved "
-    "by that much; a mesh file, of which the surface counts, or a solid box:x,y,z, sphere:radius, "
-    "capsule:radius,length, cylinder:radius,length; may be repeated";
+inline constexpr const char* obstacle_form =
+    "what stands around the robot, in the frame of its root: [NAME=]BODY[@x,y,z] or "
+    "[NAME=]BODY[@16 numbers], a 4 x 4 matrix row by row; a box is solid; may be repeated";
+
+/// An obstacle as it was written.
+struct Obstacle {
+    std::string name; ///< all of the text, where it has no NAME
+    std::string body; ///< body_forms
+    Pose pose{};
+};
+/// Throws BadInput. A file that is called as the text, or as what is behind the NAME, is one.
+Obstacle read_obstacle(const std::string& text);
+
+/// What --allow and --obstacle say.
+struct AllowedByUser {
+    /// Takes the pairs of links into the robot's. Throws BadInput for a name of nothing.
+    AllowedByUser(std::span<const std::string> allow, std::span<const std::string> obstacles,
+                  RobotCase& robot);
+
+    std::vector<Obstacle> obstacles;
+    std::vector<Pair> with_obstacles; ///< of link, of obstacle
+};
 
 /// What stands around a robot.
 class Surroundings {
   public:
-    /// The robot must outlive it. Throws BadInput, and as load_mesh.
-    Surroundings(const RobotCase& robot, const std::vector<std::string>& obstacles);
+    /// Both must outlive it. Throws as read_body.
+    Surroundings(const RobotCase& robot, const AllowedByUser& allowed, const RobotFiles& files,
+                 QueryTimes& times);
     Surroundings(const Surroundings&) = delete;
     Surroundings& operator=(const Surroundings&) = delete;
 
-    void place(std::span<const double> values) { links_.place(values); }
-
     struct Meeting {
         std::uint32_t link = 0;
-        std::string_view obstacle; ///< as it was written
+        std::string_view obstacle; ///< its name
     };
-    /// Which links touch which obstacles; a pair once, whatever the link is made of.
-    std::vector<Meeting> hits() const;
-    /// The nearest of them; none if no link has a geometry.
-    std::optional<std::pair<Meeting, BodyDistance>> nearest() const;
+    struct Answer {
+        /// Which links touch which obstacles; a pair once, whatever the link is made of.
+        std::vector<Meeting> hits;
+        /// The nearest of them; none if none may meet.
+        std::optional<std::pair<Meeting, BodyDistance>> nearest;
+    };
+    /// With the robot in a state.
+    Answer answer(std::span<const double> values);
 
   private:
     Meeting meeting(Pair bodies) const;
 
     World world_;
     RobotBodies links_;
-    std::map<std::uint32_t, std::string> names_; ///< of the obstacles
+    std::map<std::uint32_t, std::string_view> names_; ///< of the obstacles
 };
 
 } // namespace boxwood::bench

@@ -8,23 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <span>
+#include <string>
 
 namespace boxwood::bench {
-namespace {
-
-struct VolumeRow {
-    std::string_view name, summary;
-    MeshVolume volume;
-};
-constexpr VolumeRow volumes[] = {
-    {"obb", "eight boxes in any pose side by side, leaves of up to eight triangles",
-     MeshVolume::obb},
-    {"aabb", "the same with boxes along the mesh's axes", MeshVolume::aabb},
-};
-
-} // namespace
-
 std::vector<std::string_view> MeshPairTask::keys() const {
     return {"scene", "n", "poses", "n_poses", "builders", "volumes", "threads", "peers"};
 }
@@ -44,7 +30,8 @@ std::vector<SceneSpec> MeshPairTask::posed_scenes(const BlockReader& block) cons
 
 void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
     std::vector<ContenderEntry> ours;
-    const std::vector<std::string> wanted = block.names("volumes", names_of(volumes), {"obb"});
+    const std::vector<std::string> wanted = block.names("volumes", names_of(mesh_volumes()),
+                                                        {std::string(mesh_volumes().front().name)});
     const std::vector<Choice> queries = variants(block);
     for (const BuilderChoice& builder : block.builders())
         for (const std::string& volume : wanted)
@@ -63,8 +50,7 @@ void MeshPairTask::expand(const BlockReader& block, AddCell add) const {
 
 ContenderEntry MeshPairTask::contender(const Choice& choice) const {
     const BuilderEntry& builder = builder_of(choice);
-    const VolumeRow& volume =
-        entry_named(choice.layout, std::span<const VolumeRow>(volumes), "volume");
+    const MeshVolumeEntry& volume = entry_named(choice.layout, mesh_volumes(), "volume");
     ContenderEntry entry = entry_of_ours(builder, choice);
     entry.precision = "f64";
     entry.layout = volume.name;

@@ -166,6 +166,12 @@ BodyShape BodyShape::solid(TriangleMesh mesh, const MeshTreeOptions& options) {
     return shape;
 }
 
+BodyShape BodyShape::solid_if_closed(TriangleMesh mesh, const MeshTreeOptions& options) {
+    const bool is_closed = open_edges(mesh) == 0;
+    return of_mesh(is_closed ? ShapeClass::solid : ShapeClass::surface, std::move(mesh), options,
+                   0);
+}
+
 /// Triangles whose corners are one point.
 BodyShape BodyShape::points(std::span<const Vec3<float>> points, double radius) {
     if (!(radius >= 0 && radius < largest))

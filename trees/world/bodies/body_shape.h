@@ -39,6 +39,8 @@ class BodyShape {
     static BodyShape surface(std::shared_ptr<const MeshTree> tree);
     /// Throws as Solid, at once.
     static BodyShape solid(TriangleMesh mesh, const MeshTreeOptions& options = {});
+    /// As `solid` where the mesh is closed, else as `surface`.
+    static BodyShape solid_if_closed(TriangleMesh mesh, const MeshTreeOptions& options = {});
 
     /// Balls of one radius about points, each of which is a part of its own: answers name it by its
     /// index. They are met as a surface is. Throws std::invalid_argument for a radius that is

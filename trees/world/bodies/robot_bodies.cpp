@@ -28,7 +28,7 @@ RobotBodies::RobotBodies(World& world, const Robot& robot, std::span<const Trian
 }
 
 void RobotBodies::insert(std::span<const TriangleMesh> meshes, const RobotBodiesOptions& options) {
-    std::map<std::tuple<std::uint32_t, double, double, double>, BodyShape> surfaces;
+    std::map<std::tuple<std::uint32_t, double, double, double>, BodyShape> shapes;
     const auto shape_of = [&](const LinkDescription& link, const LinkShape& shape) {
         const auto* named = std::get_if<LinkMesh>(&shape);
         if (!named)
@@ -38,11 +38,15 @@ void RobotBodies::insert(std::span<const TriangleMesh> meshes, const RobotBodies
                                         std::to_string(named->mesh) + ", and there are " +
                                         std::to_string(meshes.size()));
         const std::tuple key{named->mesh, named->scale.x, named->scale.y, named->scale.z};
-        auto found = surfaces.find(key);
-        if (found == surfaces.end())
+        auto found = shapes.find(key);
+        if (found == shapes.end()) {
+            TriangleMesh mesh = scaled(meshes[named->mesh], named->scale);
             found =
-                surfaces.emplace(key, BodyShape::surface(scaled(meshes[named->mesh], named->scale)))
+                shapes
+                    .emplace(key, options.are_solid ? BodyShape::solid_if_closed(std::move(mesh))
+                                                    : BodyShape::surface(std::move(mesh)))
                     .first;
+        }
         return found->second;
     };
     for (std::uint32_t i = 0; i < robot_->links().size(); ++i) {

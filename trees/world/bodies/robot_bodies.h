@@ -19,13 +19,15 @@ struct RobotBodiesOptions {
     /// Of each body; groups and masks keep questions to the robot and its surroundings, say.
     std::uint32_t group = 1, mask = ~std::uint32_t{0};
     double margin = 0;
+    bool are_solid = false; ///< closed meshes are solids
 };
 
 /// A robot among the other bodies of a World, which answers what it touches and how near it is to
 /// what. Each geometry of a link is a body: the first is called as its link, the others LINK#2,
-/// LINK#3 and so on. A mesh is its surface; boxes, balls, cylinders and capsules are solid. Bodies
-/// of one link may meet, and those of two links that `allowed` names. Links that name one mesh in
-/// one scale share its tree. The world and the robot must outlive it; the bodies stay in the world.
+/// LINK#3 and so on. A mesh is its surface, or on request a solid; boxes, balls, cylinders and
+/// capsules are solid. Bodies of one link may meet, and those of two links that `allowed` names.
+/// Links that name one mesh in one scale share its tree. The world and the robot must outlive it;
+/// the bodies stay in the world.
 class RobotBodies {
   public:
     /// Puts the bodies into the world, the robot at rest. meshes: those that the links name.

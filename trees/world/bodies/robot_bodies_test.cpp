@@ -65,24 +65,26 @@ TEST(RobotBodies, MeetWhatIsAround) {
 TEST(RobotBodies, AgreeWithTheRobotsOwnNarrowPhase) {
     const Robot robot = slider(.5);
     const std::vector<TriangleMesh> meshes{noisy_sphere(9, 8, .1, 1)};
-    const RobotMeshes own(robot, meshes);
-    World world;
-    RobotBodies bodies(world, robot, meshes, none_allowed());
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> x(-2, 2);
-    std::vector<RigidTransform<double>> poses(2);
-    int hits = 0;
-    for (int k = 0; k < 200; ++k) {
-        const std::vector values{x(random)};
-        const RigidTransform<double> root = at(x(random), x(random), x(random));
-        bodies.place(values, root);
-        robot.poses(values, poses, root);
-        const bool expected = own.collide(0, 1, poses);
-        hits += expected;
-        EXPECT_EQ(!world.collisions().empty(), expected);
+    for (const bool are_solid : {false, true}) {
+        const RobotMeshes own(robot, meshes, {.are_solid = are_solid});
+        World world;
+        RobotBodies bodies(world, robot, meshes, none_allowed(), {.are_solid = are_solid});
+        std::mt19937_64 random(1);
+        std::uniform_real_distribution<double> x(-2, 2);
+        std::vector<RigidTransform<double>> poses(2);
+        int hits = 0;
+        for (int k = 0; k < 200; ++k) {
+            const std::vector values{x(random)};
+            const RigidTransform<double> root = at(x(random), x(random), x(random));
+            bodies.place(values, root);
+            robot.poses(values, poses, root);
+            const bool expected = own.collide(0, 1, poses);
+            hits += expected;
+            EXPECT_EQ(!world.collisions().empty(), expected);
+        }
+        EXPECT_GT(hits, 50);
+        EXPECT_LT(hits, 190);
     }
-    EXPECT_GT(hits, 50);
-    EXPECT_LT(hits, 190);
 }
 
 TEST(RobotBodies, MayMeetWhatIsAllowed) {

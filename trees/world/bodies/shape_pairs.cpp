@@ -141,10 +141,16 @@ BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double to
                              Work* work) {
     if (!(tolerance >= 0))
         throw std::invalid_argument("a tolerance must be at least 0");
-    const ShapeClass kind = a.shape.shape_class();
-    if (kind != b.shape.shape_class() || kind == ShapeClass::surface)
-        throw std::invalid_argument("a signed distance is that of two convex shapes or of two "
-                                    "solids (BodyShape::solid): a surface has no inside");
+    for (const PosedShape* of : {&a, &b})
+        if (of->shape.shape_class() == ShapeClass::surface)
+            throw std::invalid_argument(
+                "a signed distance is that of solids (BodyShape::solid) and "
+                "convex shapes: a surface has no inside");
+    if (is_convex(a) && !is_convex(b)) {
+        BodyDistance found = signed_distance(b, a, tolerance, work);
+        std::swap(found.point_a, found.point_b);
+        return found;
+    }
     const double margin = margin_of(a, b);
     const auto less_margin = [&](double x, double way) { // rounded that way
         return margin > 0 && std::isfinite(x)
@@ -158,7 +164,7 @@ BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double to
         found.distance = std::clamp(less_margin(distance, 0), found.lo, found.hi);
         return found;
     };
-    if (kind == ShapeClass::convex) {
+    if (is_convex(a)) {
         const convex::SignedDistance d =
             convex::signed_distance(a.shape.convex_shape(), a.pose, b.shape.convex_shape(), b.pose);
         BodyDistance found = grown_by_margin(d.distance, d.lo, d.hi);
@@ -166,8 +172,11 @@ BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double to
         found.point_b = d.point_b;
         return found;
     }
-    const SolidDistance d = signed_distance(a.shape.solid(), b.shape.solid(),
-                                            relative_pose(a.pose, b.pose), tolerance, work);
+    const Pose b_in_a = relative_pose(a.pose, b.pose);
+    const SolidDistance d =
+        is_convex(b)
+            ? signed_distance(a.shape.solid(), b.shape.convex_shape(), b_in_a, tolerance, work)
+            : signed_distance(a.shape.solid(), b.shape.solid(), b_in_a, tolerance, work);
     BodyDistance found = grown_by_margin(d.distance, d.lo, d.hi);
     found.point_a = a.pose(d.point_a);
     found.point_b = a.pose(d.point_b);

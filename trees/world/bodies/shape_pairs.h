@@ -47,17 +47,18 @@ struct BodyDistance {
 
     bool found() const { return hi < std::numeric_limits<double>::infinity(); }
 };
-/// options.relative is of the distance without margins. Options have no effect on two convex
-/// shapes.
+/// options.relative is of the distance without margins; start and limit have no effect on two
+/// convex shapes. Throws std::invalid_argument for a share that is not from 0 to below 1 and for
+/// other numbers that are negative or NaN.
 BodyDistance distance(const PosedShape& a, const PosedShape& b, const DistanceOptions& options = {},
                       Work* work = nullptr);
 
-/// As `distance`, of two convex shapes or of two solids; below 0 they overlap and -distance is how
-/// deep: of convex shapes the least way that parts them (and tolerance has no effect), of solids
-/// the farthest that a point of one's surface inside the other is from the other's, where hi - lo
-/// is at most `tolerance`, or as solid.h says of 0. Margins are added to either. Points of two
-/// solids that overlap are one. Throws std::invalid_argument where one is a surface or points, or
-/// one is convex and the other a solid, and for a tolerance below 0 or NaN.
+/// As `distance`, of convex shapes and solids; below 0 they overlap and -distance is how
+/// deep: of convex shapes the least way that parts them (and tolerance has no effect), of two
+/// solids, or of one and a convex shape, the farthest that a point of one's surface inside the
+/// other is from the other's, where hi - lo is at most `tolerance`, or as solid.h says of 0.
+/// Margins are added to either. Points of two solids that overlap are one. Throws
+/// std::invalid_argument where one is a surface or points, and for a tolerance below 0 or NaN.
 BodyDistance signed_distance(const PosedShape& a, const PosedShape& b, double tolerance = 0,
                              Work* work = nullptr);
 

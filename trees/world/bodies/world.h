@@ -153,12 +153,19 @@ class World {
 
     /// The nearest pair, if one is nearer than `limit`; of pairs as near one of them. lo is at most
     /// the least distance of all. Boxes that are nearer are looked at first, and what cannot be
-    /// nearer than the best so far is skipped.
+    /// nearer than the best so far is skipped. With options the nearest may be farther, as they
+    /// say of a pair, and less is looked at; options.start has no effect. `work`, if given, is
+    /// added to.
     std::optional<BodyDistance>
     least_distance(double limit = std::numeric_limits<double>::infinity()) const;
+    std::optional<BodyDistance> least_distance(const DistanceOptions& options,
+                                               Work* work = nullptr) const;
     std::optional<BodyDistance>
     least_distance_of(std::uint32_t body,
                       double limit = std::numeric_limits<double>::infinity()) const;
+    std::optional<BodyDistance> least_distance_of(std::uint32_t body,
+                                                  const DistanceOptions& options,
+                                                  Work* work = nullptr) const;
     /// Those at most `tolerance` apart; how far they are.
     std::vector<Pair> within(double tolerance) const;
     std::vector<BodyDistance> distances(double tolerance) const;

@@ -2,6 +2,7 @@
 
 #include "trees/world/bodies/detail/world_state.h"
 #include "trees/world/detail/aabb_gap.h"
+#include "trees/world/detail/nearest_candidates.h"
 
 #include <stdexcept>
 #include <utility>
@@ -128,10 +129,10 @@ std::optional<Pair> World::any_collision() const {
 
 /// The nearest pair so far, and the least that any pair may be apart.
 struct World::Nearest {
-    Nearest(const World& of, double limit)
-        : world(of), most(limit), squared(detail::NearestFirst::squared_limit(limit)) {
-        if (!(limit >= 0))
-            throw std::invalid_argument("a limit must be at least 0");
+    Nearest(const World& of, const DistanceOptions& options, Work* counted)
+        : world(of), work(counted), relative(options.relative), absolute(options.absolute),
+          most(options.limit), squared(detail::NearestFirst::squared_limit(most)) {
+        detail::goal_of(options); // throws
     }
 
     /// False once nothing can be nearer.
@@ -144,25 +145,32 @@ struct World::Nearest {
         ++offered;
         world.build_trees({&pair, 1});
         DistanceOptions options;
+        options.relative = relative;
+        options.absolute = absolute;
         options.limit = most;
-        const BodyDistance found = world.distance(pair.a, pair.b, options);
+        BodyDistance found =
+            boxwood::distance(world.posed(pair.a), world.posed(pair.b), options, work);
+        found.bodies = pair;
         if (!found.found() || !(found.lo < most))
             return true;
         lo = std::min(lo, found.lo);
         if (!best || found.hi < best->hi)
             best = found;
-        most = std::min(most, found.hi);
+        // What is beyond that makes the answer no farther than is allowed.
+        most = std::max(0.0, std::min(most, found.hi * (1 - relative) - absolute));
         squared = detail::NearestFirst::squared_limit(most);
         return most > 0;
     }
     std::optional<BodyDistance> answer() const {
         std::optional<BodyDistance> nearest = best;
         if (nearest)
-            nearest->lo = std::min(nearest->lo, lo);
+            nearest->lo = std::min({nearest->lo, lo, most});
         return nearest;
     }
 
     const World& world;
+    Work* work;
+    double relative, absolute;
     double most; ///< what is nearer is looked for
     float squared;
     double lo = std::numeric_limits<double>::infinity();
@@ -171,7 +179,12 @@ struct World::Nearest {
 };
 
 std::optional<BodyDistance> World::least_distance(double limit) const {
-    Nearest nearest(*this, limit);
+    return least_distance({.limit = limit});
+}
+
+std::optional<BodyDistance> World::least_distance(const DistanceOptions& options,
+                                                  Work* work) const {
+    Nearest nearest(*this, options, work);
     const Search where = search();
     StageCounts::Call call(state_->counts, Stage::distance);
     const auto offer = [&](std::uint32_t a, std::uint32_t b) {
@@ -194,7 +207,12 @@ std::optional<BodyDistance> World::least_distance(double limit) const {
 }
 
 std::optional<BodyDistance> World::least_distance_of(std::uint32_t body, double limit) const {
-    Nearest nearest(*this, limit);
+    return least_distance_of(body, {.limit = limit});
+}
+
+std::optional<BodyDistance>
+World::least_distance_of(std::uint32_t body, const DistanceOptions& options, Work* work) const {
+    Nearest nearest(*this, options, work);
     const Box box = at(body).box;
     if (box.is_empty())
         return std::nullopt;

@@ -64,6 +64,49 @@ TEST(World, FindsTheNearestOfAllPairs) {
     }
 }
 
+/// Roughly: lo <= truth <= hi and no wider than is allowed; and less is done for it.
+TEST(World, FindsTheNearestAsRoughlyAsIsAllowed) {
+    Work fine_work, rough_work;
+    std::size_t wide = 0;
+    for (std::uint32_t seed = 0; seed < 8; ++seed) {
+        MirroredWorld mirror(shapes_of_all_kinds());
+        RandomBodies random(seed, mirror.shapes.size(), 20);
+        for (int i = 0; i < 25; ++i)
+            mirror.insert(random.body());
+        const World& world = mirror.world;
+        const auto fine = world.least_distance(DistanceOptions{}, &fine_work);
+        const double truth = least_hi(mirror, mirror.may_meet());
+        ASSERT_TRUE(fine);
+        EXPECT_NEAR(fine->hi, truth, 1e-8);
+        for (const auto& [relative, absolute] : {std::pair{.5, 0.}, {0., .3}, {.3, .1}}) {
+            const DistanceOptions options{.relative = relative, .absolute = absolute};
+            Work work;
+            const auto rough = world.least_distance(options, &work);
+            ASSERT_TRUE(rough);
+            EXPECT_LE(rough->lo, truth * (1 + 1e-9));
+            EXPECT_GE(rough->hi, truth * (1 - 1e-9));
+            const Pair p = rough->bodies;
+            const double margins = mirror.posed(p.a).margin + mirror.posed(p.b).margin + .2;
+            EXPECT_LE(rough->hi - rough->lo,
+                      relative * (rough->hi + margins) + absolute + 1e-6 * (1 + truth));
+            wide += rough->hi - rough->lo > 1e-3;
+            EXPECT_LE(work.node_visits, fine_work.node_visits);
+            if (relative == .5)
+                rough_work += work;
+            const std::uint32_t body = p.a;
+            const auto near = world.least_distance_of(body, options);
+            const auto exactly = world.least_distance_of(body);
+            ASSERT_TRUE(near && exactly);
+            EXPECT_LE(near->lo, exactly->hi);
+            EXPECT_GE(near->hi, exactly->lo);
+        }
+    }
+    EXPECT_GT(wide, 5u);
+    EXPECT_GT(rough_work.node_visits, 0u);
+    EXPECT_LT(rough_work.node_visits, fine_work.node_visits * 4 / 5);
+    EXPECT_THROW(World().least_distance({.relative = 1}), std::invalid_argument);
+}
+
 /// How many pairs meet, which are those that all pairs tested one by one give.
 std::size_t expect_first_contacts_of_all_pairs(const MirroredWorld& mirror,
                                                const std::vector<BodyMotion>& motions) {

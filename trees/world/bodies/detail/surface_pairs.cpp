@@ -4,6 +4,7 @@
 #include "trees/world/bodies/detail/surface_pairs.h"
 
 #include "kernels/convex/signed_distance.h"
+#include "trees/world/detail/nearest_candidates.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
@@ -98,9 +99,12 @@ BodyDistance surface_distance(const PosedShape& a, const PosedShape& b,
                               const DistanceOptions& options, Work* work) {
     if (a.shape.empty() || b.shape.empty())
         return {};
-    if (is_convex(a) && is_convex(b))
-        return of_convex(convex::signed_distance(a.shape.convex_shape(), a.pose,
-                                                 b.shape.convex_shape(), b.pose));
+    if (is_convex(a) && is_convex(b)) {
+        const DistanceOptions o = goal_of(options).options;
+        return of_convex(convex::signed_distance(
+            a.shape.convex_shape(), a.pose, b.shape.convex_shape(), b.pose,
+            {std::max(convex::Tolerance{}.relative, o.relative), o.absolute}));
+    }
     DistanceOptions of_mesh = options;
     if (is_convex(a)) {
         if (options.start)
