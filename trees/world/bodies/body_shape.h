@@ -32,8 +32,8 @@ class BodyShape {
     BodyShape(const S& shape) : BodyShape(convex::Shape(shape)) {} // NOLINT
     static BodyShape hull(std::vector<Vec3<double>> points);
 
-    /// Throws as MeshTree, at once. The tree is built on the thread that needs it:
-    /// options.executor is not used.
+    /// Throws as MeshTree, at once; without_bad_triangles (mesh_triage.h) takes out what it
+    /// refuses. The tree is built on the thread that needs it: options.executor is not used.
     static BodyShape surface(TriangleMesh mesh, const MeshTreeOptions& options = {});
     /// One whose tree is there; not null.
     static BodyShape surface(std::shared_ptr<const MeshTree> tree);
