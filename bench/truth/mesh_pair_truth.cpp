@@ -81,6 +81,9 @@ class TouchTruth final : public Truth {
 /// What floats may be off by, poses rounded to them included, of the distance and the size.
 constexpr double float_slack = 0x1p-20;
 
+/// What mesh_pairs.h allows the bounds where no error is allowed, with room.
+constexpr double certified_width = 0x1p-31;
+
 /// Of closest points without a promise.
 constexpr WitnessErrors usual_witnesses(bool is_float) {
     const double error = is_float ? float_slack : 0x1p-40;
@@ -151,11 +154,11 @@ class MeshDistanceTruth final : public Truth {
         else if (is_certified && (got.lo > truth * (1 + 0x1p-50) || got.hi < lo * (1 - 0x1p-50))) {
             ++check.bound_violations;
             complain(check.extra, fmt::format("[{}, {}] does not hold {}", got.lo, got.hi, truth));
-        } else if (is_certified && contender.relative_width > 0 &&
-                   !are_narrow(got.lo, got.hi, contender.relative_width)) {
+        } else if (const double width = std::max(contender.relative_width, certified_width);
+                   is_certified && !are_narrow(got.lo, got.hi, width)) {
             ++check.bound_violations;
-            complain(check.extra, fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi,
-                                              contender.relative_width));
+            complain(check.extra,
+                     fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi, width));
         } else if (const std::string fault = fault_of_points(got, b, sgn(squared) == 0, contender);
                    !fault.empty())
             complain(check.extra, fault);

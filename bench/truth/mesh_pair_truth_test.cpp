@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 namespace boxwood::bench {
 namespace {
@@ -131,6 +132,13 @@ TEST(MeshPairTruth, SeesWrongClosestPoints) {
         };
         EXPECT_NE(judged(ours, [](PosedDistance&) {}).status, Status::wrong);
         EXPECT_NE(judged(peer, [](PosedDistance&) {}).status, Status::wrong);
+        const auto violations = [&](auto&& spoil) {
+            return judged(ours, spoil).check.bound_violations;
+        };
+        if (kind != std::string_view("deep")) {
+            EXPECT_EQ(violations([](PosedDistance& d) { d.lo *= .99; }), 1u);
+            EXPECT_EQ(violations([](PosedDistance& d) { d.hi *= 1e300; }), 1u);
+        }
         const auto off = [](Vec3<double> p) { return Vec3<double>{p.x, p.y + 1e-6, p.z - 1e-6}; };
         for (const ContenderEntry& by : {ours, peer}) {
             const auto fault = [&](auto&& spoil) {

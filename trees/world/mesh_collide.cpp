@@ -1,6 +1,6 @@
 /// Which triangles of two meshes share a point, or are near each other.
 ///
-/// First the balls around all of both, and the boxes, along 15 axes. Then a step takes a pair of
+/// First the spheres around all of both, and the boxes, along 15 axes. Then a step takes a pair of
 /// blocks and opens both at once. B's eight boxes are moved into A's frame and tested against the
 /// box around A's block; each that is left against A's eight boxes. Pairs of leaves: B's corners
 /// are moved in doubles, boxes of triangles are compared, and what is left goes to the exact
@@ -357,13 +357,13 @@ HWY_EXPORT(all_touches_by);
 
 namespace {
 
-/// Most pairs of bodies whose boxes along the axes overlap lie apart, and the balls around them say
-/// so, whether denormals are flushed or not: no radius is one.
-bool balls_parted(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work,
-                  double reach = 0) {
+/// Most pairs of bodies whose boxes along the axes overlap lie apart, and the spheres around them
+/// say so, whether denormals are flushed or not: no radius is one.
+bool spheres_separated(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* work,
+                       double reach = 0) {
     if (a.empty() || b.empty())
         return true;
-    if (!are_parted(a.ball(), b.ball(), pose, reach))
+    if (!are_separated(a.bounding_sphere(), b.bounding_sphere(), pose, reach))
         return false;
     if (work)
         ++work->node_visits;
@@ -374,7 +374,7 @@ bool balls_parted(const MeshTree& a, const MeshTree& b, const Pose& pose, Work* 
 } // namespace detail
 
 bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* work) {
-    if (detail::balls_parted(a, b, b_in_a, work))
+    if (detail::spheres_separated(a, b, b_in_a, work))
         return false;
     return without_flushing([&] {
         using namespace detail;
@@ -385,7 +385,7 @@ bool collide(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, Work* wor
 void touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, std::size_t limit,
                         std::vector<Pair>& pairs, Work* work) {
     pairs.clear();
-    if (limit == 0 || detail::balls_parted(a, b, b_in_a, work))
+    if (limit == 0 || detail::spheres_separated(a, b, b_in_a, work))
         return;
     without_flushing([&] {
         using namespace detail;
@@ -405,7 +405,7 @@ std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pos
     if (!(reach >= 0 && reach < 0x1p100))
         throw std::invalid_argument("a reach must be at least 0, and below 2^100");
     std::vector<Pair> pairs;
-    if (limit == 0 || detail::balls_parted(a, b, b_in_a, work, reach))
+    if (limit == 0 || detail::spheres_separated(a, b, b_in_a, work, reach))
         return pairs;
     without_flushing([&] {
         using namespace detail;
@@ -417,7 +417,7 @@ std::vector<Pair> near_triangles(const MeshTree& a, const MeshTree& b, const Pos
 std::vector<Pair> touching_triangles(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                                      const Executor& executor) {
     std::vector<Pair> pairs;
-    if (detail::balls_parted(a, b, b_in_a, nullptr))
+    if (detail::spheres_separated(a, b, b_in_a, nullptr))
         return pairs;
     using namespace detail;
     HWY_DYNAMIC_DISPATCH(all_touches_by)(a, b, b_in_a, executor, pairs);

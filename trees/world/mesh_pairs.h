@@ -16,7 +16,7 @@ namespace boxwood {
 /// Questions about two meshes. B stands at `b_in_a` in A's frame (relative_pose); its corners are
 /// moved there in doubles, rounded once, and the answers are exact or certified for those corners.
 /// Throws std::invalid_argument for a pose with a number that is not finite or beyond 2^62, or a
-/// matrix off a rotation by more than 2^-12 (checked_pose mends it).
+/// matrix off orthonormal by more than 2^-12 (checked_pose mends it).
 /// Touching counts. A mesh is its surface: what lies inside one without touching it is apart.
 /// `work`, if given, is added to.
 

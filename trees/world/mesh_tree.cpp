@@ -171,17 +171,18 @@ double sum_of_halves(const PosedBox& box) {
     return double{box.half[0]} + double{box.half[1]} + double{box.half[2]};
 }
 
-Ball ball_of(const Aabb<float>& bounds, const CornerRows& corners, std::size_t triangles) {
-    Ball ball;
+BoundingSphere bounding_sphere_of(const Aabb<float>& bounds, const CornerRows& corners,
+                                  std::size_t triangles) {
+    BoundingSphere sphere;
     float centre[3];
     for (int axis = 0; axis < 3; ++axis) {
         const double low = double{bounds.min[axis]}, high = double{bounds.max[axis]};
         centre[axis] = static_cast<float>(0.5 * (low + high));
-        ball.centre[axis] = double{centre[axis]};
-        ball.reach += std::max(std::abs(low), std::abs(high));
+        sphere.centre[axis] = double{centre[axis]};
+        sphere.reach += std::max(std::abs(low), std::abs(high));
     }
-    ball.radius = farthest_from(centre, corners, triangles);
-    return ball;
+    sphere.radius = farthest_from(centre, corners, triangles);
+    return sphere;
 }
 
 void set_lane(ObbBlock& block, std::size_t lane, const PosedBox& box, std::uint32_t ref) {
@@ -218,7 +219,7 @@ MeshTree::MeshTree(TriangleMesh mesh, const MeshTreeOptions& options) : mesh_(st
     const Buffer<CollapsedBlock>& from = collapsed.blocks;
     depth_ = collapsed.depth;
     Corners corners(mesh_, tree.order, executor);
-    ball_ = ball_of(bounds_, corners.rows(), size());
+    bounding_sphere_ = bounding_sphere_of(bounds_, corners.rows(), size());
     Fitting fitting(tree, collapsed, corners, executor);
     const Buffer<PosedBox> fitted =
         options.volume == MeshVolume::obb ? fitting.in_any_pose() : fitting.along_the_mesh();

@@ -7,7 +7,7 @@
 #include "trees/builder.h"
 #include "trees/builders/binned_sah.h"
 #include "trees/executor.h"
-#include "trees/world/detail/ball.h"
+#include "trees/world/detail/bounding_sphere.h"
 #include "trees/world/detail/obb_block.h"
 
 #include <cstddef>
@@ -59,7 +59,7 @@ class MeshTree {
 
     /// The parts beneath, for traversals.
     std::uint32_t root() const { return root_; }
-    const detail::Ball& ball() const { return ball_; }
+    const detail::BoundingSphere& bounding_sphere() const { return bounding_sphere_; }
     std::size_t depth() const { return depth_; } ///< most blocks on a path from the root to a leaf
     std::span<const detail::ObbBlock> blocks() const { return blocks_.span(); }
     std::span<const detail::TriangleLeaf> leaves() const { return leaves_.span(); }
@@ -77,7 +77,7 @@ class MeshTree {
     Buffer<detail::ObbBlock> blocks_;
     Buffer<detail::TriangleLeaf> leaves_;
     Aabb<float> bounds_;
-    detail::Ball ball_;
+    detail::BoundingSphere bounding_sphere_;
     std::uint32_t root_ = detail::leaf_bit;
     std::size_t depth_ = 0;
 };

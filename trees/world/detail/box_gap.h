@@ -30,7 +30,7 @@ struct BoxF64 {
 /// A bound from below of the distance of a box of A and one of B: the greatest gap along their six
 /// axes, computed in doubles. It tells ties apart that floats cannot: flat faces that are parallel
 /// are at their distance exactly. Along its own axes a box reaches half_k, as it is defined; along
-/// others what PosedBox::slack says. Off by less than 2^-46 of |t| and the halves, and `moved`.
+/// others what PosedBox::slack says. Off by less than 2^-46 of |t| and the halves, and `turned`.
 inline double box_gap(const BoxF64& a, const BoxF64& b, const PairFrame& frame) {
     const Vec3<double> t = frame.pose(b.centre) - a.centre;
     Vec3<double> turned[3];
@@ -58,7 +58,7 @@ inline double box_gap(const BoxF64& a, const BoxF64& b, const PairFrame& frame) 
         if (along_b > 0)
             gap = std::max(gap, along_b / length(b.axis[k]));
     }
-    return gap - (0x1p-46 * size + frame.moved);
+    return gap - (0x1p-46 * size + frame.turned);
 }
 
 } // namespace boxwood::detail

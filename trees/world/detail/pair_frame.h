@@ -26,11 +26,12 @@ struct SeenBox {
 /// than 14u S, and what it lacks as axes are not orthonormal (PosedBox::slack: 2 * 3.5u half) by
 /// 7u S. Together below 40u S; 128u = 2^-17 leaves room for squares, roots and sums of gaps, and
 /// 2^-70 for squares that underflow.
-/// `moved`: corners of B that are moved in doubles are off by 2^-50 of what they are made of. Where
-/// no entry of |R R^T - I| is beyond d, B's boxes reach beyond what orthonormal axes say by less
-/// than 3d of their halves, and lengths along them are off by 1.5d: below 5d S in all. Up to d =
-/// 2^-49, which a product of rotations keeps to, the bounds in doubles have room for it.
-/// `corners`: heights of both sides' corners along a direction in floats, 8u of |corner|_1.
+/// `moved`: corners of B that are moved in doubles are off by 2^-50 of what they are made of.
+/// `turned`: what boxes that are turned are off by besides; at least as much. Where no entry of |R
+/// R^T - I| is beyond d, B's boxes reach beyond what orthonormal axes say by less than 3d of their
+/// halves, and lengths along them are off by 1.5d: below 5d S in all. Up to d = 2^-49, which a
+/// product of rotations keeps to, the bounds in doubles have room for it. `corners`: heights of
+/// both sides' corners along a direction in floats, 8u of |corner|_1.
 struct PairFrame {
     PairFrame(const MeshTree& a, const MeshTree& b, const Pose& b_in_a) : pose(b_in_a) {
         const auto& [r0, r1, r2] = pose.rotation;
@@ -41,18 +42,20 @@ struct PairFrame {
             throw std::invalid_argument("a pose has a number that is not finite or beyond 2^62");
         const double skew = distance_from_orthonormal(pose.rotation);
         if (skew > 0x1p-12)
-            throw std::invalid_argument("a pose's matrix is off a rotation by more than 2^-12 (see "
-                                        "checked_pose)");
+            throw std::invalid_argument(
+                "a pose's matrix is off orthonormal by more than 2^-12 (see "
+                "checked_pose)");
         for (std::size_t i = 0; i < 3; ++i) {
             const Vec3<double>& row = pose.rotation[i];
             rotation[i][0] = static_cast<float>(row.x);
             rotation[i][1] = static_cast<float>(row.y);
             rotation[i][2] = static_cast<float>(row.z);
         }
-        const double reach = a.ball().reach + b.ball().reach;
+        const double reach = a.bounding_sphere().reach + b.bounding_sphere().reach;
         const Vec3<double>& t = pose.translation;
-        moved = (0x1p-48 + (skew > 0x1p-49 ? 16 * skew : 0)) *
-                (reach + std::abs(t.x) + std::abs(t.y) + std::abs(t.z));
+        const double size = reach + std::abs(t.x) + std::abs(t.y) + std::abs(t.z);
+        moved = 0x1p-48 * size;
+        turned = moved + (skew > 0x1p-49 ? 16 * skew * size : 0);
         corners = 0x1p-21 * reach + moved + 0x1p-60;
     }
 
@@ -64,7 +67,7 @@ struct PairFrame {
     float error(const Vec3<double>& t, const PosedBox& a, const PosedBox& b) const {
         const double size =
             std::abs(t.x) + std::abs(t.y) + std::abs(t.z) + double{a.reach} + double{b.reach};
-        return static_cast<float>((0x1p-17 * size + moved) * (1 + 0x1p-20) + 0x1p-70);
+        return static_cast<float>((0x1p-17 * size + turned) * (1 + 0x1p-20) + 0x1p-70);
     }
     /// A box of B as seen from where t starts.
     SeenBox seen_b(const PosedBox& b, const Vec3<double>& t) const {
@@ -116,7 +119,7 @@ struct PairFrame {
 
     Pose pose;
     float rotation[3][3];
-    double moved, corners;
+    double moved, turned, corners;
 };
 
 } // namespace boxwood::detail
