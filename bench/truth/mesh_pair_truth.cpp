@@ -84,10 +84,11 @@ constexpr double float_slack = 0x1p-20;
 /// What mesh_pairs.h allows the bounds where no error is allowed, with room.
 constexpr double certified_width = 0x1p-31;
 
-/// Of closest points without a promise.
-constexpr WitnessErrors usual_witnesses(bool is_float) {
+/// Of closest points without a promise. A corner may lie far out before it is moved to where the
+/// two are near.
+constexpr WitnessErrors usual_witnesses(bool is_float, double size) {
     const double error = is_float ? float_slack : 0x1p-40;
-    return {error, error};
+    return {error, error, size};
 }
 
 class MeshDistanceTruth final : public Truth {
@@ -159,14 +160,16 @@ class MeshDistanceTruth final : public Truth {
             ++check.bound_violations;
             complain(check.extra,
                      fmt::format("[{}, {}] is wider than {} of it", got.lo, got.hi, width));
-        } else if (const std::string fault = fault_of_points(got, b, sgn(squared) == 0, contender);
+        } else if (const std::string fault =
+                       fault_of_points(got, scene_.poses[i], b, sgn(squared) == 0, contender);
                    !fault.empty())
             complain(check.extra, fault);
     }
 
     /// named_touch: whether the triangles that are named do.
-    std::string fault_of_points(const PosedDistance& got, const Triangle<double>& b,
-                                bool named_touch, const ContenderEntry& contender) const {
+    std::string fault_of_points(const PosedDistance& got, const RigidTransform<double>& pose,
+                                const Triangle<double>& b, bool named_touch,
+                                const ContenderEntry& contender) const {
         const bool is_certified = contender.promise == Promise::certified;
         if (!got.points)
             return is_certified ? "no closest points are given" : "";
@@ -174,7 +177,8 @@ class MeshDistanceTruth final : public Truth {
         return witness_fault(got.points->on_mesh, got.points->on_copy, mesh_[got.triangles.a], b,
                              got.distance - width, got.distance + width,
                              is_certified ? promised_witnesses(named_touch)
-                                          : usual_witnesses(contender.precision == "f32"));
+                                          : usual_witnesses(contender.precision == "f32",
+                                                            size_ + length(pose.translation)));
     }
 
     const Scene& scene_;

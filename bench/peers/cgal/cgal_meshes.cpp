@@ -75,7 +75,7 @@ Surface surface_of(const TriangleMesh& mesh) {
     return surface;
 }
 
-/// By the package for rigid meshes, which walks two trees under a transformation.
+/// By the package for rigid meshes: a traversal of two trees under a transformation.
 class FirstTouch final : public Contender {
   public:
     explicit FirstTouch(const Job& job)

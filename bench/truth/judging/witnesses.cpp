@@ -36,7 +36,7 @@ std::string fault_of(const char* which, Vec3<double> point, const Triangle<doubl
 
 std::string witness_fault(Vec3<double> point_a, Vec3<double> point_b, const Triangle<double>& a,
                           const Triangle<double>& b, double lo, double hi, WitnessErrors errors) {
-    const double size = std::max(largest_coordinate(a), largest_coordinate(b));
+    const double size = std::max({errors.size, largest_coordinate(a), largest_coordinate(b)});
     const double of_point = errors.of_point * size + min_error;
     if (std::string fault = fault_of("the first", point_a, a, of_point); !fault.empty())
         return fault;

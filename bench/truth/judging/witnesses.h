@@ -11,6 +11,7 @@ namespace boxwood::bench {
 struct WitnessErrors {
     double of_point;
     double of_separation;
+    double size = 0; ///< M is at least this
 };
 
 /// What kernels promise (distance_kernel.h); where the two cross, separations are ill-conditioned.
