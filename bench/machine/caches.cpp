@@ -5,11 +5,11 @@
 namespace boxwood::bench {
 namespace {
 
-constexpr std::uint64_t least_last_level = std::uint64_t{16} << 20; ///< where none is known
+constexpr std::uint64_t min_last_level = std::uint64_t{16} << 20; ///< where none is known
 constexpr std::size_t words_per_line = 8;
 
 std::uint64_t last_level_bytes(const Machine& machine) {
-    return std::max({machine.l3_bytes.value_or(0), machine.l2_bytes.value_or(0), least_last_level});
+    return std::max({machine.l3_bytes.value_or(0), machine.l2_bytes.value_or(0), min_last_level});
 }
 
 } // namespace

@@ -217,18 +217,20 @@ class RobotDistanceTruth final : public Truth {
     }
 
     /// By what two links are apart, if that is less.
-    static void lower(Interval& least, const std::vector<Shape>& link_a,
+    static void lower(Interval& nearest, const std::vector<Shape>& link_a,
                       const std::vector<Shape>& link_b) {
         for (const Shape& a : link_a)
             for (const Shape& b : link_b) {
                 if (surely_touch(a.solid, b.solid)) {
-                    least = {0, 0};
+                    nearest = {0, 0};
                     return;
                 }
-                least.hi = std::min(least.hi, a.trees.inner.to(b.trees.inner, least.hi).distance);
-                const double lo =
-                    may_touch(a.solid, b.solid) ? 0 : a.trees.outer.to(b.trees.outer, least.hi).lo;
-                least.lo = std::min(least.lo, lo);
+                nearest.hi =
+                    std::min(nearest.hi, a.trees.inner.to(b.trees.inner, nearest.hi).distance);
+                const double lo = may_touch(a.solid, b.solid)
+                                      ? 0
+                                      : a.trees.outer.to(b.trees.outer, nearest.hi).lo;
+                nearest.lo = std::min(nearest.lo, lo);
             }
     }
 

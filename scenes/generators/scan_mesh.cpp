@@ -16,9 +16,9 @@ namespace {
 using Vec = Vec3<double>;
 
 constexpr int n_dense = 8, n_bumps = 12, n_holes = 9;
-constexpr double noise = 0.15;               ///< of the mean edge, along the ray that was measured
-constexpr double hole_frequency = 12;        ///< lattice cells per radius of the holes' ragged rims
-constexpr std::int64_t least_with_holes = 8; ///< subdivision
+constexpr double noise = 0.15;             ///< of the mean edge, along the ray that was measured
+constexpr double hole_frequency = 12;      ///< lattice cells per radius of the holes' ragged rims
+constexpr std::int64_t min_with_holes = 8; ///< subdivision
 
 /// What lies around a direction.
 struct Spot {
@@ -115,7 +115,7 @@ struct ScanMesh {
         std::vector<std::uint8_t> is_seen;
         for (std::size_t i = 0; i < scene.mesh.vertices.size(); ++i) {
             const Vec p(scene.mesh.vertices[i]);
-            is_seen.push_back(f < least_with_holes || scanned.is_seen(p));
+            is_seen.push_back(f < min_with_holes || scanned.is_seen(p));
             scene.mesh.vertices[i] = static_cast<Vec3<float>>(scanned.with_error(i, p));
         }
         std::erase_if(scene.mesh.triangles, [&](const auto& triangle) {

@@ -1,15 +1,12 @@
 #include "trees/world/robot_meshes.h"
 
 #include "kernels/convex/signed_distance.h"
+#include "trees/world/bodies/detail/link_bodies.h"
 #include "trees/world/bodies/shape_pairs.h"
 #include "trees/world/mesh_pairs.h"
 #include "trees/world/mesh_shape.h"
 
 #include <algorithm>
-#include <map>
-#include <stdexcept>
-#include <string>
-#include <tuple>
 #include <variant>
 
 namespace boxwood {
@@ -46,31 +43,15 @@ std::optional<convex::Shape> solid_of(const LinkShape& shape) {
 RobotMeshes::RobotMeshes(const Robot& robot, std::span<const TriangleMesh> meshes,
                          const RobotMeshesOptions& options)
     : parts_(robot.links().size()) {
-    std::map<std::tuple<std::uint32_t, double, double, double>, BodyShape> bodies;
-    const auto body_of = [&](const std::string& link, const LinkMesh& of) {
-        if (of.mesh >= meshes.size())
-            throw std::invalid_argument("link " + link + " names mesh " + std::to_string(of.mesh) +
-                                        ", and there are " + std::to_string(meshes.size()));
-        const std::tuple key{of.mesh, of.scale.x, of.scale.y, of.scale.z};
-        auto found = bodies.find(key);
-        if (found == bodies.end()) {
-            TriangleMesh mesh = scaled(meshes[of.mesh], of.scale);
-            found =
-                bodies
-                    .emplace(key, options.are_solid ? BodyShape::solid_if_closed(std::move(mesh))
-                                                    : BodyShape::surface(std::move(mesh)))
-                    .first;
-        }
-        return found->second;
-    };
+    detail::LinkBodies bodies(meshes, options.are_solid);
     for (std::size_t i = 0; i < parts_.size(); ++i) {
         const LinkDescription& link = robot.links()[i];
         for (const LinkGeometry& geometry : link.geometries) {
-            const auto* mesh = std::get_if<LinkMesh>(&geometry.shape);
-            const convex::Shape shape = solid_of(geometry.shape).value_or(convex::Shape{});
-            const BodyShape body = mesh ? body_of(link.name, *mesh) : BodyShape(shape);
-            parts_[i].push_back({mesh ? &body.tree() : nullptr, shape, body, geometry.origin,
-                                 geometry.origin != Pose{}});
+            const BodyShape body = bodies.make(link, geometry.shape);
+            const bool is_convex = body.shape_class() == ShapeClass::convex;
+            parts_[i].push_back({is_convex ? nullptr : &body.tree(),
+                                 is_convex ? body.convex_shape() : convex::Shape{}, body,
+                                 geometry.origin, geometry.origin != Pose{}});
         }
     }
 }

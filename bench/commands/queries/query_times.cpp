@@ -72,7 +72,7 @@ void add_times_option(CLI::App& app, bool& are_wanted) {
     app.add_flag("--times", are_wanted,
                  "say on stderr, with --json in the object, how long it took to read the files, to "
                  "build the trees, and to answer: the first time, in cold caches, and the median "
-                 "when the same is asked again for a fifth of a second; printing is not timed");
+                 "when the same is answered again for a fifth of a second; printing is not timed");
 }
 
 } // namespace boxwood::bench

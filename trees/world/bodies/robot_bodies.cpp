@@ -1,10 +1,8 @@
 #include "trees/world/bodies/robot_bodies.h"
 
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/detail/link_bodies.h"
 
-#include <map>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 namespace boxwood {
@@ -28,27 +26,7 @@ RobotBodies::RobotBodies(World& world, const Robot& robot, std::span<const Trian
 }
 
 void RobotBodies::insert(std::span<const TriangleMesh> meshes, const RobotBodiesOptions& options) {
-    std::map<std::tuple<std::uint32_t, double, double, double>, BodyShape> shapes;
-    const auto shape_of = [&](const LinkDescription& link, const LinkShape& shape) {
-        const auto* named = std::get_if<LinkMesh>(&shape);
-        if (!named)
-            return BodyShape(*solid_of(shape));
-        if (named->mesh >= meshes.size())
-            throw std::invalid_argument("link " + link.name + " names mesh " +
-                                        std::to_string(named->mesh) + ", and there are " +
-                                        std::to_string(meshes.size()));
-        const std::tuple key{named->mesh, named->scale.x, named->scale.y, named->scale.z};
-        auto found = shapes.find(key);
-        if (found == shapes.end()) {
-            TriangleMesh mesh = scaled(meshes[named->mesh], named->scale);
-            found =
-                shapes
-                    .emplace(key, options.are_solid ? BodyShape::solid_if_closed(std::move(mesh))
-                                                    : BodyShape::surface(std::move(mesh)))
-                    .first;
-        }
-        return found->second;
-    };
+    detail::LinkBodies shapes(meshes, options.are_solid);
     for (std::uint32_t i = 0; i < robot_->links().size(); ++i) {
         const LinkDescription& link = robot_->links()[i];
         for (std::size_t k = 0; k < link.geometries.size(); ++k) {
@@ -58,7 +36,7 @@ void RobotBodies::insert(std::span<const TriangleMesh> meshes, const RobotBodies
             of.group = options.group;
             of.mask = options.mask;
             of.margin = options.margin;
-            bodies_.push_back(world_->insert(shape_of(link, geometry.shape), {}, of));
+            bodies_.push_back(world_->insert(shapes.make(link, geometry.shape), {}, of));
             links_.push_back(i);
             origins_.push_back(geometry.origin);
             link_of_.emplace(bodies_.back(), i);
