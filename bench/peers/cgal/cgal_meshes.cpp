@@ -78,10 +78,8 @@ Surface surface_of(const TriangleMesh& mesh) {
 /// By the package for rigid meshes: a traversal of two trees under a transformation.
 class FirstTouch final : public Contender {
   public:
-    explicit FirstTouch(const Job& job)
-        : scene_(*job.scene), is_one_mesh_(&scene_.copy() == &scene_.mesh),
-          mesh_(surface_of(scene_.mesh)) {
-        if (!is_one_mesh_)
+    explicit FirstTouch(const Job& job) : scene_(*job.scene), mesh_(surface_of(scene_.mesh)) {
+        if (scene_.has_other_copy())
             copy_ = surface_of(scene_.copy());
     }
     void build() override {
@@ -92,10 +90,10 @@ class FirstTouch final : public Contender {
         tree_.build();
         pair_.emplace();
         pair_->add_mesh(tree_, mesh_, options);
-        if (is_one_mesh_)
-            pair_->add_mesh(tree_, mesh_, options);
-        else
+        if (scene_.has_other_copy())
             pair_->add_mesh(copy_, options);
+        else
+            pair_->add_mesh(tree_, mesh_, options);
     }
     void query(Answers& answers) override {
         list_of<std::uint8_t>(answers).clear();
@@ -111,7 +109,6 @@ class FirstTouch final : public Contender {
 
   private:
     const Scene& scene_;
-    bool is_one_mesh_;
     Surface mesh_, copy_;
     RigidPair::AABB_tree tree_;
     std::optional<RigidPair> pair_;
