@@ -54,6 +54,8 @@ enum class Topic : std::uint8_t { none, race, call, kernel, scene, device };
 inline constexpr std::string_view required_stages = "required", all_stages = "all";
 /// Of Variant::name of a contender whose answers may err: before the error, at the end.
 inline constexpr std::string_view error_mark = ".within_";
+/// ... of those whose bounds are not certified: "obb.distance.plain".
+inline constexpr std::string_view plain_mark = ".plain";
 /// Of Cell::executor on a device: from the host's boxes to the host's answers; all stays there; so,
 /// and started by one launch.
 inline constexpr std::string_view device_executor = "cuda", resident_executor = "cuda_resident",

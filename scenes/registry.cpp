@@ -24,6 +24,7 @@
     X(triangle_soup)                                                                               \
     X(sliver_mesh)                                                                                 \
     X(cloth)                                                                                       \
+    X(wavy_sheet)                                                                                  \
     X(four_link)                                                                                   \
     X(chain)                                                                                       \
     X(mesh)                                                                                        \

@@ -278,18 +278,19 @@ void against_processors(const Index& index, const Times& times, Judge& judge) {
     judge.close(Family::devices);
 }
 
-/// What may err against the same without an error.
+/// What may err, or is not certified, against the same that is exact and certified.
 void against_exact(const Index& index, const Times& times, Judge& judge) {
     using Alike =
         std::tuple<JobKey, std::string, std::string, std::string>; // executor, precision, name
-    const auto alike = [&](const Cell& cell) {
+    const auto from_mark = [&](const Cell& cell) {
         const std::string& name = index.variant(cell).name;
+        return std::min(name.find(results::error_mark), name.find(results::plain_mark));
+    };
+    const auto alike = [&](const Cell& cell) {
         return Alike{job_of(cell), cell.executor, cell.precision,
-                     name.substr(0, name.find(results::error_mark))};
+                     index.variant(cell).name.substr(0, from_mark(cell))};
     };
-    const auto may_err = [&](const Cell& cell) {
-        return index.variant(cell).name.find(results::error_mark) != std::string::npos;
-    };
+    const auto may_err = [&](const Cell& cell) { return from_mark(cell) != std::string::npos; };
     std::map<Alike, const Cell*> exact;
     for (const Cell& cell : index.results().cells)
         if (!index.is_peer(cell) && !may_err(cell))

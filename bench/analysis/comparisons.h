@@ -23,7 +23,7 @@ namespace boxwood::bench {
 ///   without it.
 /// - devices: our best on a device from end to end against our best of 1, of 2 and of the most
 ///   threads (see device_races), by the total of the task.
-/// - errors: a contender whose answers may err against itself without an error.
+/// - errors: a contender whose answers may err, or are not certified, against itself without that.
 /// Builders alone are compared unless the faster one's tree has a higher surface-area cost, by more
 /// than 1 %: what a trade-off is worth, the front in /trees shows.
 /// A wrong answer gets the verdict wrong and no ratio; what was not checked, cannot_tell.

@@ -246,7 +246,9 @@ TEST(CompareFamilies, OursThreadsStagesAndErrors) {
                without = run.cell("warehouse", 10, "scene_queries", "required.without_drift"),
                exact = run.cell("bunny", 100, "distance", "my.obb.distance"),
                within = run.cell("bunny", 100, "distance", "my.obb.distance.within_0.1"),
-               warm = run.cell("bunny", 100, "distance", "my.obb.distance.warm.within_0.1");
+               warm = run.cell("bunny", 100, "distance", "my.obb.distance.warm.within_0.1"),
+               plain = run.cell("bunny", 100, "distance", "my.obb.distance.plain");
+    run.results.cells[plain].classes = "not certified";
     run.results.cells[within].classes = "an error", run.results.cells[warm].classes = "warm";
     for (const auto& [cell, ns] : {std::pair{hilbert, 100.},
                                    {wide, 80.},
@@ -257,11 +259,12 @@ TEST(CompareFamilies, OursThreadsStagesAndErrors) {
                                    {without, 80.},
                                    {exact, 100.},
                                    {within, 20.},
+                                   {plain, 90.},
                                    {warm, 10.}})
         run.time(cell, Phase::query, ns);
     set_statuses(run.results);
     const auto rows = comparisons_of(run.results, Times(run.results), default_delta);
-    ASSERT_EQ(rows.size(), 6u);
+    ASSERT_EQ(rows.size(), 7u);
     const auto expect = [&](std::uint32_t a, std::uint32_t b, Family family, double ratio) {
         const Comparison& row = row_of(rows, a, b, Phase::query);
         EXPECT_EQ(row.family, family);
@@ -273,6 +276,7 @@ TEST(CompareFamilies, OursThreadsStagesAndErrors) {
     expect(required, all, Family::stages, 3);
     expect(without, required, Family::stages, 1.25);
     expect(exact, within, Family::errors, 0.2);
+    expect(exact, plain, Family::errors, 0.9);
     EXPECT_EQ(reference_of(Index(run.results), run.results.cells[hilbert]), nullptr); // itself
 }
 

@@ -304,6 +304,25 @@ TEST(Plan, ErrorsThatMakeNoSenseAreRefusedAtTheirLine) {
         }
 }
 
+TEST(Plan, DistancesAreCertifiedUnlessPlainOnesAreNamed) {
+    const auto names_with = [](const std::string& certificates) {
+        std::set<std::string> names;
+        for (const PlannedCell& cell :
+             plan_of("[[cells]]\nscene = \"sphere_mesh\"\nn = 100\ntask = \"distance\"\n"
+                     "poses = \"near\"\nbuilders = \"lbvh\"\nstarts = [\"cold\", \"warm\"]\n" +
+                     certificates)
+                 .cells)
+            names.insert(cell.contender.name);
+        return names;
+    };
+    const std::set<std::string> certified{"lbvh.obb.distance", "lbvh.obb.distance.warm"};
+    EXPECT_EQ(names_with(""), certified);
+    EXPECT_EQ(names_with("certificates = \"certified\"\n"), certified);
+    EXPECT_EQ(names_with("certificates = [\"plain\"]\n"),
+              (std::set<std::string>{"lbvh.obb.distance.plain", "lbvh.obb.distance.warm.plain"}));
+    EXPECT_THROW(names_with("certificates = \"sworn\"\n"), BadInput);
+}
+
 TEST(Plan, RefusesAPatternThatIsNoneOrLeavesNothing) {
     Overrides overrides;
     overrides.only = "(";

@@ -43,6 +43,7 @@ struct Choice {
     std::string ray_order = "given";   ///< of one hit, and points: ray_orders()
     bool warm_start = false;           ///< of distance: at the triangles of the answer before
     double relative_error = 0;         ///< of distance: DistanceOptions::relative
+    bool is_plain = false;             ///< of distance: plain_distance, without a certificate
     bool by_front_door = false;        ///< Bvh or MeshBvh (trees/bvh.h) around the same parts
 };
 

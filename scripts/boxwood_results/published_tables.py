@@ -208,18 +208,22 @@ def against_ourselves(run):
 
 
 def by_error(run):
-    """What an error that an answer may have saves, ours against ours: what accuracy costs."""
+    """What an error that an answer may have saves, or bounds without a certificate, ours against ours: what accuracy costs."""
     rows_of = {}
     for row in run.family(ERRORS, "query"):
         if row.verdict == "wrong":
             continue
         rows_of.setdefault(row.a.cell_id, []).append(row)
-    errors = sorted({row.b.relative_error for of in rows_of.values() for row in of})
-    rows = [["the answer may be too far by", "ours", "nothing", *(f"{100 * error:g} %, of that" for error in errors)]]
+    def kind(cell):
+        return cell.relative_error, not cell.is_certified
+
+    kinds = sorted({kind(row.b) for of in rows_of.values() for row in of})
+    rows = [["the answer may be too far by", "ours", "nothing", *(
+        f"{f'{100 * error:g} %' if error else 'nothing'}{', not certified' if is_plain else ''}, of that" for error, is_plain in kinds)]]
     for of in rows_of.values():
-        exact, shares = of[0].a, {row.b.relative_error: marked(row.ratio.text, row) for row in of}
+        exact, shares = of[0].a, {kind(row.b): marked(row.ratio.text, row) for row in of}
         rows.append([f"{exact.task.title}, {exact.scene_title}", exact.contender.removesuffix(f".{exact.traversal}"),
-                     time_text(exact.median("query")), *(shares.get(error, "") for error in errors)])
+                     time_text(exact.median("query")), *(shares.get(one, "") for one in kinds)])
     return rows
 
 

@@ -88,6 +88,7 @@ class Cell:
     stages_played: str  # of ways to play a scene: required, all, or the effect left out
     label: str  # short, for use within one job
     relative_error: float = 0  # of a distance: how much of the answer it may be too far
+    is_certified: bool = True  # of a distance; else it is as plain doubles measure it
     check: object = None
     medians: dict = field(default_factory=dict)  # phase -> row of /medians
     counters: dict = field(default_factory=dict)
@@ -207,13 +208,14 @@ def read_cells(source, tasks):
             scene["name"], int(row["n_items"]), int(scene["seed"]), row["task"],
             Where(row["executor"] if row["executor"] in DEVICES else "", int(row["threads"])),
         )
+        params = json.loads(column(variant, "params_json", "") or "{}")
         cells[row["cell_id"]] = Cell(
             int(row["cell_id"]), row["name"], job, variant["name"], variant["library"],
             variant["builder"], variant["traversal"], variant["kernel"], row["precision"], row["executor"],
             int(row["n_queries"]), row["status"], tasks[row["task"]], variant["library_title"],
             bool(variant["is_peer"]), int(variant["place"]), bool(variant["is_plain"]),
             bool(variant["answers_from_cache"]), bool(variant["keeps_structure"]), variant["stages"],
-            label=variant["name"], relative_error=json.loads(column(variant, "params_json", "") or "{}").get("relative_error", 0),
+            label=variant["name"], relative_error=params.get("relative_error", 0), is_certified=bool(params.get("certified", 1)),
             scene_json=column(scene, "params_json", ""),
             scene_title=column(scene, "human_name", "") or scene["name"].replace("_", " "),
         )

@@ -54,6 +54,17 @@ def test_the_best_of_ours_is_held_against_its_best_rival(tmp_path):
     assert shown(tmp_path, *rows, text=KNOWN + 'phase = "cold_query"\n')[3:] == ["", "", "", "not measured yet"]
 
 
+def test_some_may_be_at_most_so_much(tmp_path):
+    at_most = 'work = "w"\nagainst = "a"\nhighest = 1.15\nsweep = "narrow"\ntasks = ["collide"]\nfamily = "errors"\nclass = "not certified"\n'
+
+    def rows(*gains):
+        return [row(cell(2 * i, "obb", 1, f"s{i}"), cell(2 * i + 1, "obb.plain", 1, f"s{i}"), gain, family="errors", contender_class="not certified")
+                for i, gain in enumerate(gains)]
+    assert shown(tmp_path, *rows(1.01, 1.04), text=at_most)[2:] == ["at most 1.15x", "2", "1.02x", "1.04x (0.936 to 1.14): s1", "yes"]
+    assert shown(tmp_path, *rows(1.1, 1.0), text=at_most)[5:] == ["1.10x (0.990 to 1.21): s0", "open: the greatest"]
+    assert shown(tmp_path, *rows(1.0, 1.2), text=at_most)[6] == "no: the greatest"
+
+
 def test_what_is_missed_is_said(tmp_path):
     ours, rival = cell(1, "lbvh", 1), cell(2, "fcl", 1)
     assert shown(tmp_path, row(rival, ours, 13.4))[6] == "yes"

@@ -18,6 +18,7 @@
 #include <hwy/highway.h>
 
 #include "kernels/arithmetic/float_mode.h"
+#include "kernels/triangle_distance/features.h"
 #include "kernels/triangle_distance/features_batch.h"
 #include "trees/world/detail/bound_queue.h"
 #include "trees/world/detail/box_gap.h"
@@ -36,7 +37,7 @@ HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 namespace {
 
-template <bool counted> class Search {
+template <bool counted, bool plain> class Search {
   public:
     Search(const MeshTree& a, const MeshTree& b, const Pose& pose, const DistanceGoal& goal,
            Work* work)
@@ -56,7 +57,7 @@ template <bool counted> class Search {
         else if (!stack_.empty() && !nearest_.is_done())
             search_the_rest();
         measure_queue();
-        return nearest_.certified();
+        return nearest_.found();
     }
 
   private:
@@ -361,8 +362,13 @@ template <bool counted> class Search {
         FeaturesF64Batch::distance(queue_.blocks(), {distances_, n});
         if constexpr (counted)
             work_->triangle_tests += n;
-        for (std::size_t begin = 0; begin < n && !nearest_.is_done(); begin += 8)
-            judge(begin, std::min<std::size_t>(8, n - begin));
+        if constexpr (plain) {
+            for (std::size_t i = 0; i < n && !nearest_.is_done(); ++i)
+                nearest_.offer_plain(distances_[i], queue_.triangles(i));
+        } else {
+            for (std::size_t begin = 0; begin < n && !nearest_.is_done(); begin += 8)
+                judge(begin, std::min<std::size_t>(8, n - begin));
+        }
         queue_.clear();
     }
 
@@ -387,7 +393,12 @@ template <bool counted> class Search {
     void measure_start(Pair start) {
         if (start.a >= a_.size() || start.b >= b_.size())
             throw std::invalid_argument("the pair of triangles to start with is not there");
-        nearest_.offer(a_.triangle(start.a, Pose{}), b_.triangle(start.b, frame_.pose), start);
+        const Triangle<double> a = a_.triangle(start.a, Pose{}),
+                               b = b_.triangle(start.b, frame_.pose);
+        if constexpr (plain)
+            nearest_.offer_plain(FeaturesF64::distance(a, b), start);
+        else
+            nearest_.offer(a, b, start);
     }
 
     const MeshTree &a_, &b_;
@@ -403,9 +414,12 @@ template <bool counted> class Search {
 
 MeshDistance find_nearest(const MeshTree& a, const MeshTree& b, const Pose& pose,
                           const DistanceGoal& goal, Work* work) {
-    if (work)
-        return Search<true>(a, b, pose, goal, work).run();
-    return Search<false>(a, b, pose, goal, nullptr).run();
+    const auto run = [&]<bool plain>(std::bool_constant<plain>) HWY_ATTR {
+        if (work)
+            return Search<true, plain>(a, b, pose, goal, work).run();
+        return Search<false, plain>(a, b, pose, goal, nullptr).run();
+    };
+    return goal.is_plain ? run(std::true_type{}) : run(std::false_type{});
 }
 
 } // namespace
@@ -435,6 +449,13 @@ MeshDistance search(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
 MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                       const DistanceOptions& options, Work* work) {
     return search(a, b, b_in_a, detail::goal_of(options), work);
+}
+
+MeshDistance plain_distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                            const DistanceOptions& options, Work* work) {
+    detail::DistanceGoal goal = detail::goal_of(options);
+    goal.is_plain = true;
+    return search(a, b, b_in_a, goal, work);
 }
 
 MeshWithin within(const MeshTree& a, const MeshTree& b, const Pose& b_in_a, double tolerance,

@@ -68,6 +68,11 @@ struct MeshDistance {
 };
 MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                       const DistanceOptions& options = {}, Work* work = nullptr);
+/// The same without its certificate, to show what that costs: pairs of triangles stand as plain
+/// doubles measure them. lo = hi = distance, off by some 2^-50 of the size of both, and nothing is
+/// promised: two that touch may be said to be a little apart.
+MeshDistance plain_distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
+                            const DistanceOptions& options = {}, Work* work = nullptr);
 
 /// Whether they are at most `tolerance` apart, certain but within 2^-32 of it: then lo and hi lie
 /// on both sides of the tolerance, and `within` is true.

@@ -168,6 +168,14 @@ TEST_P(RandomPoses, AreAsFarApartAsTheirTriangles) {
             DistanceOptions warm;
             warm.start = Pair{seed, static_cast<std::uint32_t>(k)};
             expect_between(distance(tree_a, tree_b, pose, warm), truth);
+            for (const DistanceOptions& options : {DistanceOptions{}, warm}) {
+                const MeshDistance plain = plain_distance(tree_a, tree_b, pose, options);
+                ASSERT_TRUE(plain.found());
+                EXPECT_NEAR(plain.distance, truth.hi, 1e-12);
+                EXPECT_TRUE(plain.lo == plain.distance && plain.hi == plain.distance);
+                EXPECT_NEAR(length(plain.point_b - plain.point_a), plain.distance, 1e-12);
+            }
+            EXPECT_EQ(plain_distance(tree_a, tree_b, pose, {.limit = truth.lo / 2}).found(), false);
             for (const double factor : {.5, 1 - 1e-6, 1 + 1e-6, 2.0}) {
                 const MeshWithin near = within(tree_a, tree_b, pose, truth.hi * factor);
                 EXPECT_EQ(near.within, truth.hi <= truth.hi * factor);

@@ -29,6 +29,8 @@ std::vector<ContenderEntry> contenders_of(const Task& task) {
             choice.relative_error = 0;
             choice.warm_start = true;
             all.push_back(task.contender(choice));
+            choice.is_plain = true;
+            all.push_back(task.contender(choice));
         }
     return all;
 }
@@ -165,6 +167,17 @@ TEST(MeshPairTasks, AnErrorIsNamedBesideTheSettingsOfTheBuilder) {
     EXPECT_EQ(entry.params_json, R"({"bins": 4, "relative_error": 1e-05})");
     EXPECT_EQ(entry.classes, std::vector<std::string>{"warm start with relative error 0.00001"});
     EXPECT_EQ(entry.relative_width, 1e-5 + 0x1p-32);
+}
+
+TEST(MeshPairTasks, PlainDistancesPromiseNothingAndAreAClassOfTheirOwn) {
+    Choice choice;
+    choice.layout = "obb";
+    choice.is_plain = true;
+    const ContenderEntry entry = find_task("distance")->contender(choice);
+    EXPECT_EQ(entry.name, "binned_sah.obb.distance.plain");
+    EXPECT_EQ(entry.params_json, R"({"certified": 0})");
+    EXPECT_EQ(entry.classes, std::vector<std::string>{"not certified"});
+    EXPECT_EQ(entry.promise, Promise::none);
 }
 
 TEST(MeshPairTasks, TouchesAreTheSameByTwoThreads) {

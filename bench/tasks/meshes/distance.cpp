@@ -10,6 +10,8 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
@@ -18,10 +20,10 @@ constexpr double errors_per_one = 1e6; ///< relative errors are in steps of a mi
 
 class LeastDistance final : public MeshPairContender {
   public:
-    LeastDistance(const Job& job, BuildFunction build, MeshVolume volume, bool is_warm,
-                  double relative_error)
-        : MeshPairContender(job, std::move(build), volume), is_warm_(is_warm) {
-        options_.relative = relative_error;
+    LeastDistance(const Job& job, BuildFunction build, MeshVolume volume, const Choice& choice)
+        : MeshPairContender(job, std::move(build), volume),
+          measure_(choice.is_plain ? plain_distance : distance), is_warm_(choice.warm_start) {
+        options_.relative = choice.relative_error;
     }
 
   private:
@@ -30,7 +32,7 @@ class LeastDistance final : public MeshPairContender {
         distances.clear();
         DistanceOptions options = options_;
         for (const Pose& pose : scene_.poses) {
-            const MeshDistance d = distance(mesh(), copy(), pose, options, work);
+            const MeshDistance d = measure_(mesh(), copy(), pose, options, work);
             distances.push_back(
                 {d.distance, d.lo, d.hi, d.triangles, PosedDistance::Points{d.point_a, d.point_b}});
             if (is_warm_ && d.found())
@@ -38,6 +40,7 @@ class LeastDistance final : public MeshPairContender {
         }
     }
 
+    decltype(&distance) measure_;
     DistanceOptions options_;
     bool is_warm_;
 };
@@ -51,7 +54,7 @@ class DistanceOfMeshes final : public MeshPairTask {
     }
     std::vector<std::string_view> keys() const override {
         std::vector<std::string_view> all = MeshPairTask::keys();
-        all.insert(all.end(), {"starts", "relative_errors"});
+        all.insert(all.end(), {"starts", "relative_errors", "certificates"});
         return all;
     }
     std::unique_ptr<Answers> make_answers() const override {
@@ -83,10 +86,18 @@ class DistanceOfMeshes final : public MeshPairTask {
                 choice.warm_start = start == "warm";
                 choice.relative_error = std::round(error * errors_per_one) / errors_per_one;
             }
+        const std::vector<Choice> certified = std::exchange(all, {});
+        for (const std::string& certificate :
+             block.names("certificates", {"certified", "plain"}, {"certified"}))
+            for (Choice choice : certified) {
+                choice.is_plain = certificate == "plain";
+                all.push_back(choice);
+            }
         return all;
     }
     void add_variant(const Choice& choice, ContenderEntry& entry) const override {
         std::string of_class;
+        Settings settings = choice.settings;
         entry.relative_width = choice.relative_error + 0x1p-32;
         if (choice.warm_start) {
             entry.name += ".warm";
@@ -98,18 +109,24 @@ class DistanceOfMeshes final : public MeshPairTask {
             error.erase(error.find_last_not_of('0') + 1);
             (entry.name += results::error_mark) += error;
             entry.notes += fmt::format("; up to {} of the answer too far", error);
-            Settings settings = choice.settings;
             settings["relative_error"] = choice.relative_error;
-            entry.params_json = settings_json(settings);
             of_class += fmt::format("{}relative error {}", of_class.empty() ? "" : " with ", error);
+        }
+        if (choice.is_plain) {
+            entry.name += results::plain_mark;
+            entry.notes += "; as plain doubles measure it, with no bound";
+            entry.promise = Promise::none;
+            settings["certified"] = std::int64_t{0};
+            of_class += of_class.empty() ? "not certified" : ", not certified";
         }
         if (!of_class.empty())
             entry.classes = {of_class};
+        if (settings.size() > choice.settings.size())
+            entry.params_json = settings_json(settings);
     }
     Make make(const Choice& choice) const override {
-        return [is_warm = choice.warm_start, error = choice.relative_error](
-                   const Job& job, BuildFunction build, MeshVolume volume) {
-            return std::make_unique<LeastDistance>(job, std::move(build), volume, is_warm, error);
+        return [choice](const Job& job, BuildFunction build, MeshVolume volume) {
+            return std::make_unique<LeastDistance>(job, std::move(build), volume, choice);
         };
     }
     Promise promise() const override { return Promise::certified; }

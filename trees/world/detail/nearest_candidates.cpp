@@ -104,8 +104,17 @@ MeshDistance NearestCandidates::nearest_of_all() const {
     return nearest;
 }
 
-MeshDistance NearestCandidates::certified() const {
-    if (is_done_)
+void NearestCandidates::offer_plain(const Distance& measured, Pair triangles) {
+    if (!(measured.distance < best_))
+        return;
+    lower_to(measured.distance);
+    done_ = answer(measured, triangles);
+    done_.lo = done_.hi = measured.distance;
+    is_done_ = measured.distance <= goal_.stop_at;
+}
+
+MeshDistance NearestCandidates::found() const {
+    if (is_done_ || (goal_.is_plain && done_.found()))
         return done_;
     MeshDistance nearest = nearest_of_all();
     nearest.lo = std::min({nearest.lo, wanted_, nearest.hi});

@@ -14,6 +14,7 @@ struct DistanceGoal {
     DistanceOptions options;
     double stop_at = 0;
     bool ends_at_first = false; ///< at the first pair that is so near
+    bool is_plain = false;      ///< what is measured stands, uncertified
 };
 /// Throw std::invalid_argument for tolerances and limits that make no sense. goal_within: what
 /// decides whether two are at most so far apart.
@@ -43,7 +44,9 @@ class NearestCandidates {
                double measured, double lower);
     /// A pair that is measured at once.
     void offer(const Triangle<double>& a, const Triangle<double>& b, Pair triangles);
-    MeshDistance certified() const;
+    /// One that stands as it was measured.
+    void offer_plain(const Distance& measured, Pair triangles);
+    MeshDistance found() const;
 
   private:
     struct Candidate {
