@@ -29,16 +29,16 @@ struct SlabBounds {
 };
 
 /// The slab test of a ray against many boxes within known bounds, one fused product and difference
-/// per plane: near * entry_rdir - entry_shift. A SIMD version computes `clip` from these numbers,
-/// fused or not.
+/// per plane: near * rdir - entry_shift. A SIMD version computes `clip` from these numbers, fused
+/// or not; nine of them, and the ray's range, leave registers free where there are sixteen.
 ///
 /// Why no true hit is lost, u = 2^-24. Take d > 0 (d < 0 mirrors it), a box within bounds, and a
-/// hit at t with near <= o + d t. entry_rdir = (1 - 12u) / d, thrice rounded, is at most
-/// (1 - 8u) / d, so (near - o) entry_rdir <= t (1 - 8u), or it is negative: void. entry_shift is
-/// at least o entry_rdir + u |near| entry_rdir, the latter for a product that is rounded on its
-/// own: `pad` holds 4u (|o| + |near|) entry_rdir, of which the roundings of the shift take at most
-/// 3u |o| entry_rdir. So the difference is at most t before its last rounding, and that is
-/// monotone. The exit mirrors it. What this costs: planes move by a few ulp of the coordinates.
+/// hit at t with near <= o + d t. rdir = (1 + e) / d, |e| <= u, so (near - o) rdir is at most
+/// t + u (|near| + |o|) rdir (1 + 2u). A product that is rounded on its own adds u |near| rdir, and
+/// the roundings of the shift take 3u |o| rdir and 3u of `pad` and of `margin`: `pad` holds
+/// 6u (|o| + |near|) rdir for these 4u and 2u. So the difference is at most t before its last
+/// rounding, and that is monotone. The exit mirrors it. What this costs: planes move by a few ulp
+/// of the coordinates.
 ///
 /// Components smaller than 2^-22 of the largest count as that: within the bounds such a ray moves
 /// across by at most 2^-22 reach, t <= reach / largest, which T = 2 reach / largest of slack in
@@ -50,7 +50,7 @@ struct SlabBounds {
 /// 4u. What underflows in the kernel, 2^-150 (reach + 1) / |d|, is at most 2^-128 (reach + 1) /
 /// largest: less than u reach / largest, and the 2^-127.
 struct FusedSlabs {
-    Float4 entry_rdir, entry_shift, exit_rdir, exit_shift;
+    Float4 rdir, entry_shift, exit_shift;
 
     FusedSlabs() = default; ///< of no ray yet
     [[gnu::always_inline]] FusedSlabs(const Ray<float>& ray, const SlabBounds& bounds) {
@@ -72,13 +72,11 @@ struct FusedSlabs {
         // 2^-146: what underflows here.
         const float margin = (0x1p-20f * reach + 0x1p-127f) * per_largest + 0x1p-146f;
         const auto small = size < min_direction;
-        const Float4 r = with_sign(1 / (small ? all(min_direction) : size), direction);
-        entry_rdir = r * (1 - 0x1.8p-21f);
-        exit_rdir = r * (1 + 0x1.8p-21f);
-        const Float4 in = origin * entry_rdir, out = origin * exit_rdir;
-        const Float4 pad = 0x1p-22f * (abs(out) + bounds.widest * abs(exit_rdir));
-        entry_shift = in + pad + (small ? all(margin + beyond) : all(margin));
-        exit_shift = out - pad - (small ? all(margin + 2 * beyond) : all(margin));
+        rdir = with_sign(1 / (small ? all(min_direction) : size), direction);
+        const Float4 at = origin * rdir;
+        const Float4 pad = 0x1.8p-22f * (abs(at) + bounds.widest * abs(rdir));
+        entry_shift = at + pad + (small ? all(margin + beyond) : all(margin));
+        exit_shift = at - pad - (small ? all(margin + 2 * beyond) : all(margin));
     }
 
   private:
@@ -96,21 +94,21 @@ struct FusedSlabs {
 
     /// Entries below 0 and exits beyond everything, but the empty box (+inf, -inf) stays empty.
     void give_up(Float4 direction) {
-        entry_rdir = exit_rdir = with_sign(all(std::numeric_limits<float>::min()), direction);
-        entry_shift = all(8); // |near| entry_rdir < 4
+        rdir = with_sign(all(std::numeric_limits<float>::min()), direction);
+        entry_shift = all(8); // |near| rdir < 4
         exit_shift = all(-std::numeric_limits<float>::max());
     }
 };
 
 /// Clips [t_min, t_max], t_min >= 0, by a box within the bounds or the empty box; near and far by
-/// the sign bit of entry_rdir. Never misses, as clip(RaySlabs ...).
+/// the sign bit of rdir. Never misses, as clip(RaySlabs ...).
 inline RaySpan clip(const FusedSlabs& ray, const Aabb<float>& box, float t_min, float t_max) {
     for (int k = 0; k < 3; ++k) {
-        const bool negative = std::signbit(ray.entry_rdir[k]);
+        const bool negative = std::signbit(ray.rdir[k]);
         const float near = negative ? box.max[k] : box.min[k];
         const float far = negative ? box.min[k] : box.max[k];
-        t_min = std::max(t_min, std::fma(near, ray.entry_rdir[k], -ray.entry_shift[k]));
-        t_max = std::min(t_max, std::fma(far, ray.exit_rdir[k], -ray.exit_shift[k]));
+        t_min = std::max(t_min, std::fma(near, ray.rdir[k], -ray.entry_shift[k]));
+        t_max = std::min(t_max, std::fma(far, ray.rdir[k], -ray.exit_shift[k]));
     }
     return {t_min, t_max};
 }

@@ -14,10 +14,10 @@ constexpr float inf = std::numeric_limits<float>::infinity();
 /// The same without fusing: what SIMD targets that have no fused product compute.
 RaySpan clip_unfused(const FusedSlabs& ray, const Box& box, float t_min, float t_max) {
     for (int k = 0; k < 3; ++k) {
-        const bool negative = std::signbit(ray.entry_rdir[k]);
+        const bool negative = std::signbit(ray.rdir[k]);
         const float near = negative ? box.max[k] : box.min[k];
         const float far = negative ? box.min[k] : box.max[k];
-        const float a = near * ray.entry_rdir[k], b = far * ray.exit_rdir[k];
+        const float a = near * ray.rdir[k], b = far * ray.rdir[k];
         t_min = std::max(t_min, a - ray.entry_shift[k]);
         t_max = std::min(t_max, b - ray.exit_shift[k]);
     }

@@ -61,6 +61,11 @@ struct WaitingNode {
 };
 static_assert(sizeof(WaitingNode) == 8);
 
+/// FusedSlabs of what stands for several rays: its exit has another line than its entry.
+struct FrontSlabs {
+    Float4 entry_rdir, entry_shift, exit_rdir, exit_shift;
+};
+
 /// FusedSlabs in registers.
 template <class Node> class NodeClip {
     using D = NodeTag<Node>;
@@ -69,16 +74,12 @@ template <class Node> class NodeClip {
 
   public:
     HWY_INLINE NodeClip(const FusedSlabs& slabs, float t_min)
-        : re0_(everywhere(slabs.entry_rdir[0])), re1_(everywhere(slabs.entry_rdir[1])),
-          re2_(everywhere(slabs.entry_rdir[2])), se0_(everywhere(slabs.entry_shift[0])),
-          se1_(everywhere(slabs.entry_shift[1])), se2_(everywhere(slabs.entry_shift[2])),
-          rx0_(everywhere(slabs.exit_rdir[0])), rx1_(everywhere(slabs.exit_rdir[1])),
-          rx2_(everywhere(slabs.exit_rdir[2])), sx0_(everywhere(slabs.exit_shift[0])),
-          sx1_(everywhere(slabs.exit_shift[1])), sx2_(everywhere(slabs.exit_shift[2])),
-          t_min_(everywhere(t_min)) {
-        near0_ = near(slabs, 0);
-        near1_ = near(slabs, 1);
-        near2_ = near(slabs, 2);
+        : NodeClip(slabs.rdir, slabs.entry_shift, slabs.exit_shift, t_min) {}
+    HWY_INLINE NodeClip(const FrontSlabs& slabs, float t_min)
+        : NodeClip(slabs.entry_rdir, slabs.entry_shift, slabs.exit_shift, t_min) {
+        rx0_ = everywhere(slabs.exit_rdir[0]);
+        rx1_ = everywhere(slabs.exit_rdir[1]);
+        rx2_ = everywhere(slabs.exit_rdir[2]);
     }
 
     /// `clip` for the lanes from i on: which are hit, and where each is entered.
@@ -97,13 +98,22 @@ template <class Node> class NodeClip {
   private:
     static constexpr std::size_t plane = sizeof(Node::plane) / 6; ///< bytes
 
+    HWY_INLINE NodeClip(Float4 rdir, Float4 entry_shift, Float4 exit_shift, float t_min)
+        : re0_(everywhere(rdir[0])), re1_(everywhere(rdir[1])), re2_(everywhere(rdir[2])),
+          se0_(everywhere(entry_shift[0])), se1_(everywhere(entry_shift[1])),
+          se2_(everywhere(entry_shift[2])), sx0_(everywhere(exit_shift[0])),
+          sx1_(everywhere(exit_shift[1])), sx2_(everywhere(exit_shift[2])),
+          t_min_(everywhere(t_min)), rx0_(re0_), rx1_(re1_), rx2_(re2_), near0_(near(rdir, 0)),
+          near1_(near(rdir, 1)), near2_(near(rdir, 2)) {}
+
     static HWY_INLINE V everywhere(float x) { return hwy::HWY_NAMESPACE::Set(D(), x); }
-    static HWY_INLINE std::size_t near(const FusedSlabs& slabs, std::size_t k) {
-        return plane * (k + 3 * (std::bit_cast<std::uint32_t>(slabs.entry_rdir[k]) >> 31));
+    static HWY_INLINE std::size_t near(Float4 rdir, std::size_t k) {
+        return plane * (k + 3 * (std::bit_cast<std::uint32_t>(rdir[k]) >> 31));
     }
 
-    const V re0_, re1_, re2_, se0_, se1_, se2_, rx0_, rx1_, rx2_, sx0_, sx1_, sx2_, t_min_;
-    std::size_t near0_, near1_, near2_; ///< of `plane_of`; the far planes are the others
+    const V re0_, re1_, re2_, se0_, se1_, se2_, sx0_, sx1_, sx2_, t_min_;
+    V rx0_, rx1_, rx2_;                       ///< of one ray the same as of its entry
+    const std::size_t near0_, near1_, near2_; ///< of `plane_of`; the far planes are the others
 };
 
 /// The children that are hit: the farthest first on the stack, the nearest on top of it.

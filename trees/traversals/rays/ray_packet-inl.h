@@ -37,9 +37,8 @@ class PacketSlabs {
 
     void set(std::size_t r, const Ray<float>& ray, const FusedSlabs& slabs) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            entry_rdir_[axis][r] = slabs.entry_rdir[axis];
+            rdir_[axis][r] = slabs.rdir[axis];
             entry_shift_[axis][r] = slabs.entry_shift[axis];
-            exit_rdir_[axis][r] = slabs.exit_rdir[axis];
             exit_shift_[axis][r] = slabs.exit_shift[axis];
         }
         t_min[r] = ray.t_min;
@@ -47,10 +46,10 @@ class PacketSlabs {
     }
 
     /// Once all are set.
-    HWY_INLINE FusedSlabs front(const SlabBounds& bounds) {
+    HWY_INLINE FrontSlabs front(const SlabBounds& bounds) {
         namespace hn = hwy::HWY_NAMESPACE;
         const D d;
-        FusedSlabs front{};
+        FrontSlabs front{};
         is_mixed_ = false;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const V low = hn::Set(d, bounds.min[axis]), high = hn::Set(d, bounds.max[axis]);
@@ -60,17 +59,16 @@ class PacketSlabs {
             V exit_low = hn::Neg(infinity), exit_high = exit_low, exit_size = hn::Zero(d);
             std::size_t negative = 0;
             for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
-                const V er = hn::Load(d, entry_rdir_[axis] + i);
+                const V rdir = hn::Load(d, rdir_[axis] + i);
                 const V es = hn::Load(d, entry_shift_[axis] + i);
-                const V xr = hn::Load(d, exit_rdir_[axis] + i);
                 const V xs = hn::Load(d, exit_shift_[axis] + i);
-                negative += hn::CountTrue(d, hn::Lt(er, hn::Zero(d)));
-                entry_low = hn::Min(entry_low, hn::MulSub(low, er, es));
-                entry_high = hn::Min(entry_high, hn::MulSub(high, er, es));
-                exit_low = hn::Max(exit_low, hn::MulSub(low, xr, xs));
-                exit_high = hn::Max(exit_high, hn::MulSub(high, xr, xs));
-                entry_size = hn::Max(entry_size, hn::MulAdd(hn::Abs(er), widest, hn::Abs(es)));
-                exit_size = hn::Max(exit_size, hn::MulAdd(hn::Abs(xr), widest, hn::Abs(xs)));
+                negative += hn::CountTrue(d, hn::Lt(rdir, hn::Zero(d)));
+                entry_low = hn::Min(entry_low, hn::MulSub(low, rdir, es));
+                entry_high = hn::Min(entry_high, hn::MulSub(high, rdir, es));
+                exit_low = hn::Max(exit_low, hn::MulSub(low, rdir, xs));
+                exit_high = hn::Max(exit_high, hn::MulSub(high, rdir, xs));
+                entry_size = hn::Max(entry_size, hn::MulAdd(hn::Abs(rdir), widest, hn::Abs(es)));
+                exit_size = hn::Max(exit_size, hn::MulAdd(hn::Abs(rdir), widest, hn::Abs(xs)));
             }
             const bool one_sign = negative == 0 || negative == n;
             is_mixed_ |= !one_sign;
@@ -78,10 +76,10 @@ class PacketSlabs {
             const float beyond = one_sign ? 0 : no_bound;
             const BoundingLine entry =
                 line_below({bounds.min[axis], bounds.max[axis], least(entry_low), least(entry_high),
-                            greatest(entry_size) + beyond, entry_rdir_[axis][0]});
-            const BoundingLine exit = line_above(
-                {bounds.min[axis], bounds.max[axis], greatest(exit_low), greatest(exit_high),
-                 greatest(exit_size) + beyond, exit_rdir_[axis][0]});
+                            greatest(entry_size) + beyond, rdir_[axis][0]});
+            const BoundingLine exit =
+                line_above({bounds.min[axis], bounds.max[axis], greatest(exit_low),
+                            greatest(exit_high), greatest(exit_size) + beyond, rdir_[axis][0]});
             front.entry_rdir[axis] = entry.rdir;
             front.entry_shift[axis] = entry.shift;
             front.exit_rdir[axis] = exit.rdir;
@@ -136,7 +134,7 @@ class PacketSlabs {
         for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
             V entry = hn::Load(d, t_min + i), exit = hn::Load(d, t_max + i);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const V rdir = hn::Load(d, entry_rdir_[axis] + i);
+                const V rdir = hn::Load(d, rdir_[axis] + i);
                 V near, far;
                 if constexpr (mixed) {
                     const V min = hn::Set(d, node.plane[axis][child]);
@@ -144,20 +142,19 @@ class PacketSlabs {
                     near = hn::IfNegativeThenElse(rdir, max, min);
                     far = hn::IfNegativeThenElse(rdir, min, max);
                 } else {
-                    const bool negative = std::signbit(entry_rdir_[axis][0]);
+                    const bool negative = std::signbit(rdir_[axis][0]);
                     near = hn::Set(d, node.plane[axis + (negative ? 3 : 0)][child]);
                     far = hn::Set(d, node.plane[axis + (negative ? 0 : 3)][child]);
                 }
                 entry = hn::Max(entry, hn::MulSub(near, rdir, hn::Load(d, entry_shift_[axis] + i)));
-                exit = hn::Min(exit, hn::MulSub(far, hn::Load(d, exit_rdir_[axis] + i),
-                                                hn::Load(d, exit_shift_[axis] + i)));
+                exit = hn::Min(exit, hn::MulSub(far, rdir, hn::Load(d, exit_shift_[axis] + i)));
             }
             bits |= lane_bits(d, hn::Le(entry, exit), i);
         }
         return bits;
     }
 
-    alignas(64) float entry_rdir_[3][n], entry_shift_[3][n], exit_rdir_[3][n], exit_shift_[3][n];
+    alignas(64) float rdir_[3][n], entry_shift_[3][n], exit_shift_[3][n];
     bool is_mixed_ = false; ///< directions of both signs on some axis
 };
 
