@@ -63,7 +63,7 @@ class Polytope {
     double offset(Index face) const { return offset_[face]; }
 
     /// Adds a point beyond face `seen`. False if there is no room: then nothing has changed.
-    bool expand(const Simplex::Vertex& point, Index seen) {
+    bool expand(const Vertex& point, Index seen) {
         if (vertex_count_ == max_vertices || face_count_ + 2 > max_faces)
             return false;
         if (!find_hole(point.w, seen) || face_count_ - hole_count_ + rim_count_ > max_faces) {
@@ -86,20 +86,21 @@ class Polytope {
     }
 
     /// Where the surface is nearest to the origin: on a face whose offset is at most this.
-    Simplex nearest(double offset) const {
-        Simplex best;
+    void nearest(double offset, CoreDistance& found) const {
         double least = inf;
         for (Index face = 0; face < face_count_; ++face) {
             if (!(offset_[face] <= offset))
                 continue;
-            Simplex triangle, s;
-            for (const std::uint8_t i : faces_[face].corner)
-                triangle.add(vertices_[i]);
-            reduce_thoroughly(triangle, s);
-            if (const double d = length(s.nearest); d < least)
-                least = d, best = s;
+            const auto [i, j, k] = faces_[face].corner;
+            const Vertices corners{vertices_[i], vertices_[j], vertices_[k]};
+            Nearest on_face;
+            find_nearest(corners, 0b111, true, on_face);
+            if (const double d = length(on_face.point); d < least) {
+                least = d;
+                found.between = on_face.point;
+                found.on_a = on_face.on_a(corners);
+            }
         }
-        return best;
     }
 
     bool is_sure() const { return sure_; }
@@ -125,11 +126,9 @@ class Polytope {
         const V p = w(j) - w(i), q = w(k) - w(i);
         V n = cross(p, q);
         if (is_sliver(p, q)) {
-            Simplex triangle, s;
-            for (const std::uint8_t x : {i, j, k})
-                triangle.add(vertices_[x]);
-            reduce_thoroughly(triangle, s);
-            n = s.nearest;
+            Nearest nearest;
+            find_nearest({vertices_[i], vertices_[j], vertices_[k]}, 0b111, true, nearest);
+            n = nearest.point;
         }
         n = unit_or(n, {0, 0, 1});
         const double a = dot(n, w(i)), b = dot(n, w(j)), c = dot(n, w(k));
@@ -221,7 +220,7 @@ class Polytope {
         return count;
     }
 
-    std::array<Simplex::Vertex, max_vertices> vertices_;
+    std::array<Vertex, max_vertices> vertices_;
     std::array<Face, max_faces> faces_;
     std::array<double, max_faces> offset_;
     /// The face on the left of the edge from one vertex to another, where there is one.
@@ -239,8 +238,8 @@ struct Probe {
     const AnyDifference& difference;
     CoreDistance& found;
 
-    Simplex::Vertex along(const V& d) const {
-        const Simplex::Vertex p = difference.along(d);
+    Vertex along(const V& d) const {
+        const Vertex p = difference.along(d);
         if (const double gap = -dot(d, p.w); gap > found.lo)
             found.lo = gap, found.normal = d;
         return p;
@@ -249,11 +248,11 @@ struct Probe {
     /// more than `least` away.
     template <class Measure, std::size_t n>
     bool grow(Simplex& s, const std::array<V, n>& ways, double least, Measure measure) const {
-        Simplex::Vertex best;
+        Vertex best;
         double most = -inf;
         for (const V& d : ways)
             for (const V& way : {d, -d}) {
-                const Simplex::Vertex p = along(way);
+                const Vertex p = along(way);
                 if (const double m = measure(p.w); m > most)
                     most = m, best = p;
             }
@@ -309,32 +308,24 @@ bool expand(const Probe& probe, const Simplex& tetrahedron, const Goal& goal) {
         if (hi < goal.hi_enough && polytope.goes_around())
             break;
         const V n = polytope.normal(face);
-        const Simplex::Vertex point = probe.along(n);
+        const Vertex point = probe.along(n);
         if (goal.reached(found.lo, hi) || dot(n, point.w) <= polytope.plane(face) + least / 2 ||
             !polytope.expand(point, face))
             break;
     }
     const double offset = polytope.offset(face);
     if (offset > 0 && -offset < found.hi && polytope.goes_around()) {
-        const Simplex nearest = polytope.nearest(offset * (1 + 0x1p-36) + least);
+        polytope.nearest(offset * (1 + 0x1p-36) + least, found);
         found.hi = -offset;
-        found.between = nearest.nearest;
-        found.on_a = nearest.on_a();
     }
     return polytope.is_sure() || goal.reached(found.lo, found.hi);
 }
 
 } // namespace
 
-CoreDistance depth_of_origin(const AnyDifference& difference, const Simplex& start,
-                             const Goal& goal) {
-    CoreDistance found;
-    found.hi = length(start.nearest);
-    found.between = start.nearest;
-    found.on_a = start.on_a();
-    found.overlapping = true;
+void find_depth(const AnyDifference& difference, Simplex simplex, const Goal& goal,
+                CoreDistance& found) {
     const Probe probe{difference, found};
-    Simplex simplex = start;
     for (int tries = 0; tries < 3; ++tries) {
         if (!grow_to_tetrahedron(probe, simplex, touching_size(goal.size)) ||
             goal.reached(found.lo, found.hi) || expand(probe, simplex, goal) ||
@@ -343,7 +334,6 @@ CoreDistance depth_of_origin(const AnyDifference& difference, const Simplex& sta
         simplex = {};
         simplex.add(probe.along(tries == 0 ? found.normal : -found.normal));
     }
-    return found;
 }
 
 } // namespace boxwood::convex::detail

@@ -3,6 +3,10 @@
 #include "kernels/convex/detail/relative_pose.h"
 #include "kernels/convex/detail/simplex.h"
 
+#include <bit>
+#include <span>
+#include <utility>
+
 /// Gilbert, Johnson, Keerthi 1988, "A fast procedure for computing the distance between complex
 /// objects in three-dimensional space", on the cores of two shapes in the first one's frame.
 /// Each turn: the nearest point v of a simplex in D = A - B (an upper bound, |v|); the farthest
@@ -19,7 +23,7 @@ template <class A, class B> struct Difference {
     const RelativePose& b_in_a;
 
     /// The farthest point along d.
-    Simplex::Vertex along(Vec3<double> d) const {
+    Vertex along(Vec3<double> d) const {
         const Vec3<double> x = support(a, d);
         return {x - b_in_a(support(b, b_in_a.rotated_back(-d))), x};
     }
@@ -28,14 +32,14 @@ template <class A, class B> struct Difference {
 /// A difference whose type is not known: for what is called seldom.
 struct AnyDifference {
     const void* difference;
-    Simplex::Vertex (*along_in)(const void*, Vec3<double>);
+    Vertex (*along_in)(const void*, Vec3<double>);
 
     template <class A, class B>
     explicit AnyDifference(const Difference<A, B>& d)
         : difference(&d), along_in([](const void* self, Vec3<double> way) {
               return static_cast<const Difference<A, B>*>(self)->along(way);
           }) {}
-    Simplex::Vertex along(Vec3<double> d) const { return along_in(difference, d); }
+    Vertex along(Vec3<double> d) const { return along_in(difference, d); }
 };
 
 /// When a search may end.
@@ -76,6 +80,25 @@ inline bool usable(Vec3<double> d) {
 /// Below this the nearest point of a simplex is not told from the origin.
 inline double touching_size(double size) { return 16 * u * size; }
 
+/// Whether a ball around the origin, which an edge or a face of the simplex goes through, is in the
+/// difference: proven by the farthest points on all sides of it.
+template <class D> bool surrounds_ball(const D& difference, const Simplex& s, double radius) {
+    const Vec3<double> a = s.vertex[0].w, b = s.vertex[1].w;
+    std::array<Vec3<double>, 4> ring{a, b, s.vertex[2].w, {}};
+    if (s.size < 2 || s.size > 3)
+        return false;
+    if (s.size == 2) {
+        const Vec3<double> across = square_to(b - a);
+        ring = {a, difference.along(across).w, b, difference.along(-across).w};
+    }
+    const Vec3<double> up =
+        s.size == 2 ? cross(ring[1] - ring[3], b - a) : cross(b - a, ring[2] - a);
+    if (!usable(up))
+        return false;
+    return encloses_ball(std::span(ring).first(s.size == 2 ? 4 : 3), difference.along(up).w,
+                         difference.along(-up).w, radius);
+}
+
 /// start: from a towards b. `ended` is the simplex where the search ended.
 template <class D>
 CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Goal& goal,
@@ -84,55 +107,58 @@ CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Go
     const double rounding = touching_size(goal.size) / 4;
     int level_turns = 0; // a far vertex may turn v, yet gain less than rounding
     CoreDistance found;
-    Simplex buffer[2];
-    Simplex* simplex = buffer;
-    Simplex* spare = buffer + 1;
+    Vertices vertices;
+    Nearest buffer[2];
+    Nearest *nearest = buffer, *tried = buffer + 1;
     Vec3<double> v = -start; // the direction of the nearest point, of any length
     for (int turn = 0; turn < max_turns; ++turn) {
-        const Simplex::Vertex next = difference.along(-v);
+        const auto slot = static_cast<std::size_t>(std::countr_one(nearest->used));
+        const Vertex next = vertices[slot] = difference.along(-v);
         if (const double gap = dot(v, next.w) / length(v); gap > found.lo) {
             found.lo = gap;
             found.normal = v;
             if (goal.reached(gap, found.hi))
                 break;
         }
-        const bool known = simplex->holds(next.w);
+        bool known = false;
+        for (std::size_t i = 0; i < 4; ++i)
+            known |= (nearest->used >> i & 1) != 0 && vertices[i].w == next.w;
+        const unsigned used = nearest->used | (known ? 0 : 1u << slot);
         double hi = inf;
-        if (!known) {
-            simplex->add(next);
-            reduce(*simplex, *spare);
-            hi = length(spare->nearest);
-        }
         const auto gains = [&] {
-            return hi < found.hi || spare->encloses ||
-                   (!known && hi <= found.hi + rounding && spare->holds(next.w) &&
+            return hi < found.hi || (hi < inf && tried->encloses) ||
+                   (!known && hi <= found.hi + rounding && (tried->used >> slot & 1) != 0 &&
                     ++level_turns <= max_level_turns);
         };
+        if (!known) {
+            find_nearest(vertices, used, false, *tried);
+            hi = length(tried->point);
+        }
         if (!gains()) {
-            reduce_thoroughly(*simplex, *spare);
-            hi = length(spare->nearest);
-            if (!gains()) {
-                simplex->size -= known ? 0 : 1; // as it was
+            find_nearest(vertices, used, true, *tried);
+            hi = length(tried->point);
+            if (!gains())
                 break;
-            }
         }
-        std::swap(simplex, spare);
+        std::swap(nearest, tried);
         found.hi = hi;
-        if (simplex->encloses || hi <= touching_size(goal.size)) {
-            found.overlapping = true;
-            const double depth = -1.25 * goal.hi_enough;
-            if (simplex->encloses && depth > 0 && encloses_ball(*simplex, depth))
-                found.hi = -depth;
+        found.overlapping = nearest->encloses || hi <= touching_size(goal.size);
+        if (found.overlapping || goal.reached(found.lo, hi))
             break;
-        }
-        if (goal.reached(found.lo, hi))
-            break;
-        v = usable(simplex->direction) ? simplex->direction : simplex->nearest;
+        v = usable(nearest->direction) ? nearest->direction : nearest->point;
     }
-    ended = *simplex;
+    ended.size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        if (nearest->used >> i & 1)
+            ended.add(vertices[i]);
+    if (const double depth = -1.25 * goal.hi_enough;
+        found.overlapping && depth > 0 &&
+        (nearest->encloses ? encloses_ball(vertices, depth)
+                           : surrounds_ball(difference, ended, depth)))
+        found.hi = -depth;
     found.normal = unit_or(-found.normal, {0, 0, 1});
-    found.on_a = simplex->on_a();
-    found.between = simplex->nearest;
+    found.on_a = nearest->on_a(vertices);
+    found.between = nearest->point;
     return found;
 }
 

@@ -208,11 +208,7 @@ template <class A, class B> struct Search {
             return found;
         if constexpr (boxes)
             return boxes_depth(box_gaps(a, b, b_in_a, size, inf), difference, goal);
-        const double lo = found.lo;
-        const V normal = found.normal;
-        found = depth_of_origin(AnyDifference(difference), simplex, goal);
-        if (lo > found.lo)
-            found.lo = lo, found.normal = normal;
+        find_depth(AnyDifference(difference), simplex, goal, found);
         return found;
     }
 

@@ -1,5 +1,6 @@
 #include "kernels/convex/detail/simplex.h"
 
+#include <bit>
 #include <utility>
 
 namespace boxwood::convex::detail {
@@ -8,30 +9,24 @@ namespace {
 using V = Vec3<double>;
 using Index = std::size_t;
 
-/// The best point so far, on the vertices from[0 .. size).
-struct Best {
-    double squared = inf;
-    V nearest;
-    std::array<Index, 3> from;
-    std::array<double, 3> weight;
-    int size = 0;
-};
-
 struct Search {
-    const Simplex& s;
-    Best best;
+    const Vertices& vertices;
+    Nearest& best;
+    double best_squared = inf;
     std::array<double, 4> squared; ///< of the vertices' distances
+    std::array<Index, 3> from;     ///< the vertices of the best, the nearest to the origin first
 
-    explicit Search(const Simplex& simplex) : s(simplex) {
-        for (Index i = 0; i < static_cast<Index>(s.size); ++i)
-            squared[i] = dot(w(i), w(i));
-    }
-
-    const V& w(Index i) const { return s.vertex[i].w; }
+    Search(const Vertices& of, Nearest& to) : vertices(of), best(to) {}
+    const V& w(Index i) const { return vertices[i].w; }
 
     void vertex(Index i) {
-        if (squared[i] < best.squared)
-            best = {squared[i], w(i), {i, 0, 0}, {1, 0, 0}, 1};
+        if (!(squared[i] < best_squared))
+            return;
+        best_squared = squared[i];
+        best.point = w(i);
+        best.used = 1u << i;
+        best.weight[i] = 1;
+        from[0] = i;
     }
 
     void segment(Index i, Index j) {
@@ -45,8 +40,15 @@ struct Search {
             return vertex(j);
         const double t = along / ee;
         const V p = w(i) + t * e;
-        if (const double d = dot(p, p); d < best.squared)
-            best = {d, p, {i, j, 0}, {1 - t, t, 0}, 2};
+        const double d = dot(p, p);
+        if (!(d < best_squared))
+            return;
+        best_squared = d;
+        best.point = p;
+        best.used = 1u << i | 1u << j;
+        best.weight[i] = 1 - t;
+        best.weight[j] = t;
+        from[0] = i, from[1] = j;
     }
 
     /// Of the edges of triangle ijk only those that face the origin can hold the nearest point,
@@ -65,8 +67,15 @@ struct Search {
         if (of_i > 0 && of_j > 0 && of_k > 0 && nn > 0) {
             const double b = of_j / nn, c = of_k / nn;
             const V at = w(i) + (b * p + c * q);
-            if (const double d = dot(at, at); d < best.squared)
-                best = {d, at, {i, j, k}, {1 - b - c > 0 ? 1 - b - c : 0, b, c}, 3};
+            if (const double d = dot(at, at); d < best_squared) {
+                best_squared = d;
+                best.point = at;
+                best.used = 1u << i | 1u << j | 1u << k;
+                best.weight[i] = 1 - b - c > 0 ? 1 - b - c : 0;
+                best.weight[j] = b;
+                best.weight[k] = c;
+                from = {i, j, k};
+            }
             if (!all)
                 return;
         }
@@ -80,20 +89,21 @@ struct Search {
 
     /// From the origin to the best point, square to the edge or face that it lies on.
     V direction() const {
-        if (best.size == 0) // NaN in all
+        if (best.used == 0) // NaN in all
             return {};
-        const V& a = w(best.from[0]);
-        if (best.size == 1)
+        const V& a = w(from[0]);
+        const int n_used = std::popcount(best.used);
+        if (n_used == 1)
             return a;
-        const V p = w(best.from[1]) - a;
-        if (best.size == 2)
+        const V p = w(from[1]) - a;
+        if (n_used == 2)
             return cross(p, cross(a, p));
-        const V n = cross(p, w(best.from[2]) - a);
+        const V n = cross(p, w(from[2]) - a);
         return dot(n, a) < 0 ? -n : n;
     }
 
-    /// True if the origin is inside, with the weights of the four.
-    bool tetrahedron(bool all, std::array<double, 4>& weight) {
+    /// True if the origin is inside.
+    bool tetrahedron(bool all) {
         Index d = 0;
         for (Index i = 1; i < 4; ++i)
             if (squared[i] < squared[d])
@@ -106,8 +116,13 @@ struct Search {
             volume = -volume, of_a = -of_a, of_b = -of_b, of_c = -of_c;
         const double of_d = volume - of_a - of_b - of_c;
         if (volume > 0 && of_a >= 0 && of_b >= 0 && of_c >= 0 && of_d >= 0) {
-            weight[a] = of_a / volume, weight[b] = of_b / volume;
-            weight[c] = of_c / volume, weight[d] = of_d / volume;
+            best.used = 0b1111;
+            best.weight[a] = of_a / volume, best.weight[b] = of_b / volume;
+            best.weight[c] = of_c / volume, best.weight[d] = of_d / volume;
+            best.encloses = true;
+            best.point = {};
+            for (Index i = 0; i < 4; ++i)
+                best.point = best.point + best.weight[i] * w(i);
             return true;
         }
         const bool flat = !(volume > 0) || all;
@@ -123,58 +138,58 @@ struct Search {
     }
 };
 
-void reduce_with(const Simplex& s, Simplex& to, bool all) {
-    Search search(s);
-    to.encloses = false;
-    switch (s.size) {
-    case 1:
-        search.vertex(0);
-        break;
-    case 2:
-        search.segment(0, 1);
-        break;
-    case 3:
-        search.triangle(0, 1, 2, all);
-        break;
-    default:
-        if (search.tetrahedron(all, to.weight)) {
-            to.encloses = true;
-            to.size = 4;
-            to.vertex = s.vertex;
-            to.nearest = to.direction = {};
-            for (Index i = 0; i < 4; ++i)
-                to.nearest = to.nearest + to.weight[i] * s.vertex[i].w;
-            return;
-        }
-    }
-    const Best& best = search.best;
-    to.size = 0;
-    for (Index i = 0; i < static_cast<Index>(s.size); ++i) // in order, the newest last
-        for (Index k = 0; k < static_cast<Index>(best.size); ++k)
-            if (best.from[k] == i) {
-                to.weight[static_cast<Index>(to.size)] = best.weight[k];
-                to.add(s.vertex[i]);
-            }
-    to.nearest = best.nearest;
-    to.direction = search.direction();
+/// Of a face's plane, counterclockwise seen from outside; the ball is inside and does not reach it.
+bool is_beyond(double radius, V a, V b, V c) {
+    const V n = cross(b - a, c - a);
+    const double offset = std::min({dot(n, a), dot(n, b), dot(n, c)});
+    return offset > 0 && offset * offset > radius * radius * dot(n, n);
 }
 
 } // namespace
 
-void reduce(const Simplex& from, Simplex& to) { reduce_with(from, to, false); }
-void reduce_thoroughly(const Simplex& from, Simplex& to) { reduce_with(from, to, true); }
+void find_nearest(const Vertices& vertices, unsigned used, bool thoroughly, Nearest& nearest) {
+    nearest.used = 0;
+    nearest.encloses = false;
+    Search search{vertices, nearest};
+    std::array<Index, 4> at;
+    int size = 0;
+    for (unsigned bits = used; bits != 0; bits &= bits - 1) {
+        const auto i = static_cast<Index>(std::countr_zero(bits));
+        search.squared[i] = dot(vertices[i].w, vertices[i].w);
+        at[static_cast<Index>(size++)] = i;
+    }
+    switch (size) {
+    case 1:
+        search.vertex(at[0]);
+        break;
+    case 2:
+        search.segment(at[0], at[1]);
+        break;
+    case 3:
+        search.triangle(at[0], at[1], at[2], thoroughly);
+        break;
+    default:
+        if (search.tetrahedron(thoroughly))
+            return;
+    }
+    nearest.direction = search.direction();
+}
 
-bool encloses_ball(const Simplex& tetrahedron, double radius) {
-    const auto& v = tetrahedron.vertex;
-    const auto face_is_beyond = [&](Index i, Index j, Index k, Index inside) {
-        V n = cross(v[j].w - v[i].w, v[k].w - v[i].w);
-        if (dot(n, v[inside].w - v[i].w) > 0)
-            n = -n;
-        const double offset = std::min({dot(n, v[i].w), dot(n, v[j].w), dot(n, v[k].w)});
-        return offset > 0 && offset * offset > radius * radius * dot(n, n);
-    };
-    return face_is_beyond(0, 1, 2, 3) && face_is_beyond(0, 1, 3, 2) && face_is_beyond(0, 2, 3, 1) &&
-           face_is_beyond(1, 2, 3, 0);
+bool encloses_ball(const Vertices& tetrahedron, double radius) {
+    const auto& [a, b, c, d] = tetrahedron;
+    const V n = cross(b.w - a.w, c.w - a.w);
+    const auto [p, q] = dot(n, d.w - a.w) > 0 ? std::pair(c.w, b.w) : std::pair(b.w, c.w);
+    return is_beyond(radius, a.w, p, q) && is_beyond(radius, a.w, d.w, p) &&
+           is_beyond(radius, p, d.w, q) && is_beyond(radius, q, d.w, a.w);
+}
+
+bool encloses_ball(std::span<const V> ring, V top, V bottom, double radius) {
+    for (Index i = 0; i < ring.size(); ++i) {
+        const V &p = ring[i], &q = ring[i + 1 == ring.size() ? 0 : i + 1];
+        if (!is_beyond(radius, p, q, top) || !is_beyond(radius, q, p, bottom))
+            return false;
+    }
+    return true;
 }
 
 } // namespace boxwood::convex::detail

@@ -3,52 +3,57 @@
 #include "kernels/convex/support.h"
 
 #include <array>
+#include <cstddef>
+#include <span>
 
 /// The point of a simplex that is nearest to the origin: the sub-algorithm of GJK.
 namespace boxwood::convex::detail {
 
-/// At most four points of the difference A - B, the newest last, each with the point of A that it
-/// came from; and the nearest point that was found last.
-struct Simplex {
-    struct Vertex {
-        Vec3<double> w, on_a;
-    };
-    std::array<Vertex, 4> vertex;
-    std::array<double, 4> weight{}; ///< of each vertex, >= 0, of sum 1 up to rounding
-    int size = 0;
+/// A point of the difference A - B, and the point of A that it came from.
+struct Vertex {
+    Vec3<double> w, on_a;
+};
+using Vertices = std::array<Vertex, 4>;
 
-    Vec3<double> nearest{};   ///< the sum of weights times points
-    Vec3<double> direction{}; ///< the same way, more accurate if `nearest` is small: square to the
+/// The nearest point of a simplex.
+struct Nearest {
+    Vec3<double> point{};     ///< the sum of weights times vertices
+    Vec3<double> direction{}; ///< the same way, more accurate if `point` is small: square to the
                               ///< edge or face that it lies on; of any length, 0 if unknown
-    bool encloses = false;    ///< the origin is in the tetrahedron
+    std::array<double, 4> weight; ///< of each vertex, >= 0, of sum 1 up to rounding
+    unsigned used = 0;            ///< bits of the vertices that it needs
+    bool encloses = false;        ///< the origin is in the tetrahedron
 
-    void add(const Vertex& v) { vertex[static_cast<std::size_t>(size++)] = v; }
-    bool holds(const Vec3<double>& w) const {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
-            if (vertex[i].w == w)
-                return true;
-        return false;
-    }
-    Vec3<double> on_a() const {
+    Vec3<double> on_a(const Vertices& vertices) const {
         Vec3<double> p{};
-        for (std::size_t i = 0; i < static_cast<std::size_t>(size); ++i)
-            p = p + weight[i] * vertex[i].on_a;
+        for (std::size_t i = 0; i < 4; ++i)
+            if (used >> i & 1)
+                p = p + weight[i] * vertices[i].on_a;
         return p;
     }
 };
 
-/// The nearest point of `from`, and in `to` (another one) only the vertices that it needs.
-/// Parameters are solved for relative to the vertex nearest the origin, so that they are accurate
-/// in small simplices far from it. Errors only make the point less near: it is a sum of the
-/// vertices.
-void reduce(const Simplex& from, Simplex& to);
+/// Of the vertices whose bits are set. Parameters are solved for relative to the vertex nearest the
+/// origin, so that they are accurate in small simplices far from it. Errors only make the point
+/// less near: it is a sum of the vertices. thoroughly: of every part, without asking which one
+/// faces the origin.
+void find_nearest(const Vertices& vertices, unsigned used, bool thoroughly, Nearest& nearest);
 
-/// The same, of every part of the simplex without asking which one faces the origin.
-void reduce_thoroughly(const Simplex& from, Simplex& to);
+/// At most four vertices.
+struct Simplex {
+    Vertices vertex;
+    int size = 0;
+
+    void add(const Vertex& v) { vertex[static_cast<std::size_t>(size++)] = v; }
+    unsigned all() const { return (1u << size) - 1; }
+};
 
 /// Whether the ball of this radius around the origin is in the tetrahedron: proven, as each face is
 /// in a half-space n.x >= radius |n|, up to 8u of the size of its points.
-bool encloses_ball(const Simplex& tetrahedron, double radius);
+bool encloses_ball(const Vertices& tetrahedron, double radius);
+/// The same of two pyramids on one ring of three or four points, counterclockwise seen from `top`.
+bool encloses_ball(std::span<const Vec3<double>> ring, Vec3<double> top, Vec3<double> bottom,
+                   double radius);
 
 /// A direction square to d, about as long.
 inline Vec3<double> square_to(Vec3<double> d) {
