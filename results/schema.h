@@ -17,7 +17,7 @@
 namespace boxwood::results {
 
 inline constexpr std::string_view format_name = "boxwood-results";
-inline constexpr std::uint32_t schema_major = 2, schema_minor = 3;
+inline constexpr std::uint32_t schema_major = 2, schema_minor = 4;
 
 /// Bytes of a column that holds an enum's word.
 inline constexpr std::size_t word_width = 32;

@@ -431,9 +431,12 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     maker.time(lengthy, Phase::build, steady(1.4e7), results::aa_twin);
     maker.time(brief, Phase::build, steady(1e3));
     maker.time(brief, Phase::build, steady(1.05e3), results::aa_twin);
+    maker.time(lengthy, Phase::cold_query, steady(1e7));
+    maker.time(lengthy, Phase::cold_query, steady(1.3e7), results::aa_twin);
     const Times times(maker.results);
     const NoiseFloors floors(maker.results, times);
     for (const auto& [phase, floor] : {std::pair{Phase::cold_build, .5},
+                                       {Phase::cold_query, .3}, // not that of a warm one
                                        {Phase::build, .4},
                                        {Phase::query, .01},
                                        {Phase::build_and_query, .4}})

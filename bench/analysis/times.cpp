@@ -166,7 +166,8 @@ NoiseFloors::Likeness NoiseFloors::likeness(const results::Cell& cell, Phase pha
     constexpr double brief_ns = 1e6;
     const Rounds* const rounds = times_.rounds(cell.cell_id, phase);
     return {cell.threads > 1, rounds && paired_medians(*rounds, *rounds).first < brief_ns,
-            phase == Phase::cold_build || phase == Phase::cold_build_and_query,
+            phase == Phase::cold_build || phase == Phase::cold_build_and_query ||
+                phase == Phase::cold_query,
             phase == Phase::query || phase == Phase::cold_query || phase == Phase::device_query};
 }
 

@@ -17,6 +17,11 @@ std::uint64_t last_level_bytes(const Machine& machine) {
 CacheFlush::CacheFlush(const Machine& machine)
     : memory_(2 * last_level_bytes(machine) / sizeof(std::uint64_t)) {}
 
+double CacheFlush::guessed_s(const Machine& machine) {
+    constexpr double bytes_per_s = 4e9;
+    return 2 * static_cast<double>(last_level_bytes(machine)) / bytes_per_s;
+}
+
 void CacheFlush::operator()() {
     std::uint64_t carried = 1;
     for (std::size_t i = 0; i < memory_.size(); i += words_per_line)

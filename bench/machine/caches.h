@@ -13,6 +13,9 @@ class CacheFlush {
     explicit CacheFlush(const Machine& machine);
     void operator()();
 
+    /// What a call may take, guessed: at 4 GB/s.
+    static double guessed_s(const Machine& machine);
+
   private:
     std::vector<std::uint64_t> memory_;
 };

@@ -57,7 +57,8 @@ Calibrations calibrations_of(std::string_view text) {
 
 std::set<std::string> choose_twins(const results::Results& prepared,
                                    const Calibrations& calibrations,
-                                   const std::set<std::string>& in_fewer_rounds) {
+                                   const std::set<std::string>& in_fewer_rounds,
+                                   const std::set<std::string>& with_cold_caches) {
     std::map<std::uint32_t, bool> wrong, peer;
     for (const results::Check& check : prepared.checks)
         wrong[check.cell_id] |= check.status == results::Status::wrong;
@@ -65,7 +66,7 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         peer[variant.variant_id] = variant.is_peer != 0;
 
     double all_ns = 0;
-    using Kind = std::tuple<bool, bool, bool>;                // a peer's, several threads, brief
+    using Kind = std::tuple<bool, bool, bool, bool>; // a peer's, several threads, brief, cold
     using Cost = std::tuple<bool, bool, double, std::string>; // wrong, fewer rounds, ns, name
     std::map<Kind, std::vector<Cost>> kinds;
     for (const results::Cell& cell : prepared.cells) {
@@ -76,8 +77,9 @@ std::set<std::string> choose_twins(const results::Results& prepared,
         all_ns += round_ns(c);
         const bool is_peer = peer[cell.variant_id];
         const Kind kind =
-            is_peer ? Kind{true, false, false}
-                    : Kind{false, cell.threads > 1, std::max(c.build_ns, c.query_ns) < 1e6};
+            is_peer ? Kind{true, false, false, false}
+                    : Kind{false, cell.threads > 1, std::max(c.build_ns, c.query_ns) < 1e6,
+                           with_cold_caches.contains(cell.name)};
         kinds[kind].emplace_back(wrong[cell.cell_id], in_fewer_rounds.contains(cell.name),
                                  round_ns(c), cell.name);
     }

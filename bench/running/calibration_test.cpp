@@ -106,6 +106,7 @@ TEST(Twins, AreThreeOfAKindWhileTheyTakeATenth) {
     EXPECT_EQ(cells.twins(), (std::set<std::string>{"c0", "c10", "c20"}));
     EXPECT_EQ(choose_twins(cells.prepared, cells.calibrations, {"c10"}),
               (std::set<std::string>{"c0", "c11", "c21"}));
+    EXPECT_TRUE(choose_twins(cells.prepared, cells.calibrations, {}, {"c33"}).contains("c33"));
 }
 
 } // namespace

@@ -50,11 +50,15 @@ std::vector<Timing> timings_of(const Plan& plan, const results::Results& prepare
 
     const InputAnswers answers = input_answers_of(prepared.texts.at("inputs"));
     std::vector<Timing> timings;
-    std::set<std::string> in_fewer_rounds;
-    for (const PlannedCell& cell : plan.cells)
+    std::set<std::string> in_fewer_rounds, with_cold_caches;
+    for (const PlannedCell& cell : plan.cells) {
         if (cell.rounds && *cell.rounds < plan.rounds)
             in_fewer_rounds.insert(cell.name);
-    const std::set<std::string> twins = choose_twins(prepared, calibrations, in_fewer_rounds);
+        if (cell.cold_caches)
+            with_cold_caches.insert(cell.name);
+    }
+    const std::set<std::string> twins =
+        choose_twins(prepared, calibrations, in_fewer_rounds, with_cold_caches);
     for (const PlannedCell& cell : plan.cells) {
         const auto found = calibrations.find(cell.name);
         if (found == calibrations.end() || !cell.is_in(round))

@@ -8,7 +8,9 @@
 #include "bench/io/csv.h"
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
+#include "bench/machine/caches.h"
 #include "bench/machine/environment.h"
+#include "bench/machine/machine.h"
 #include "bench/machine/quiet.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
@@ -42,11 +44,17 @@ constexpr std::size_t max_padding = 4096; ///< a page: beyond it all comes again
 
 double cell_s(const Calibration& calibration) { return (round_ns(calibration) + set_up_ns) * 1e-9; }
 
+/// What it takes in a round to flush the caches before each of its queries.
+double flushes_s(const PlannedCell& cell) {
+    static const double flush_s = CacheFlush::guessed_s(read_machine(""));
+    return cell.cold_caches ? static_cast<double>(cell.scene.n_poses) * flush_s : 0;
+}
+
 /// Before anything was measured: a microsecond per item, ray, point and region for each phase.
 double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
     const double call =
         1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays + cell.scene.n_points);
-    return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_ns * 1e-9;
+    return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_ns * 1e-9 + flushes_s(cell);
 }
 
 /// A sweep as its parent process sees it: children work, it waits, keeps and joins.
@@ -196,11 +204,14 @@ class Sweep {
 
         Calibrations calibrations = calibrations_of(prepared_.texts["calibration"]);
         double all_s = 0;
+        std::map<std::string, double> s_of; // by cell
         for (const PlannedCell& cell : plan_.cells)
-            if (const auto found = calibrations.find(cell.name); found != calibrations.end())
-                all_s += cell_s(found->second) *
+            if (const auto found = calibrations.find(cell.name); found != calibrations.end()) {
+                s_of[cell.name] = cell_s(found->second) + flushes_s(cell);
+                all_s += s_of[cell.name] *
                          static_cast<double>(std::ranges::count_if(
                              wanted, [&](unsigned round) { return cell.is_in(round); }));
+            }
         Eta eta(all_s);
         if (!quiet_wait_)
             quiet_wait_.emplace(std::min(options_.wait_s, all_s));
@@ -216,10 +227,10 @@ class Sweep {
             arguments.insert(arguments.end(), {"--round", std::to_string(*round), "--prepared",
                                                shards_.prepared_file().string(), "--other-cores",
                                                fmt::format("{:.2f}", other_cores)});
-            const ChildEnd end = run_child_process(
-                fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments,
-                order_seed_of(plan_.seed, *round) % max_padding, eta,
-                [&](const std::string& cell) { return cell_s(calibrations[cell]); });
+            const ChildEnd end =
+                run_child_process(fmt::format("round {}/{}", *round + 1, plan_.rounds), arguments,
+                                  order_seed_of(plan_.seed, *round) % max_padding, eta,
+                                  [&](const std::string& cell) { return s_of[cell]; });
             if (end.kind == ChildEnd::Kind::interrupted)
                 return false;
             note_crash(end, fmt::format("round {}", *round + 1));

@@ -162,8 +162,7 @@ class RobotDistanceTruth final : public Truth {
         make_executor("tbb", threads)->for_each(least_.size(), [&](std::size_t i) {
             const PlacedLinks links = placed(robot_.states[i]);
             size_[i] = size_of(links);
-            for (const Pair p : links_.pairs())
-                lower(least_[i], links[p.a], links[p.b]);
+            least_[i] = least_of(links);
         });
     }
 
@@ -216,22 +215,53 @@ class RobotDistanceTruth final : public Truth {
         return size;
     }
 
+    /// Of all pairs of links; by the gaps of their boxes, the least first.
+    Interval least_of(const PlacedLinks& links) const {
+        struct Candidate {
+            double gap;
+            const Shape *a, *b;
+        };
+        std::vector<Candidate> candidates;
+        for (const Pair p : links_.pairs())
+            for (const Shape& a : links[p.a])
+                for (const Shape& b : links[p.b])
+                    candidates.push_back({gap_of(a.solid.box, b.solid.box), &a, &b});
+        std::ranges::sort(candidates, {}, &Candidate::gap);
+        Interval nearest;
+        for (const auto& [gap, a, b] : candidates) {
+            if (gap >= nearest.hi)
+                break;
+            lower(nearest, *a, *b);
+        }
+        return nearest;
+    }
+    /// No two points of the boxes are nearer.
+    static double gap_of(const Aabb<double>& a, const Aabb<double>& b) {
+        double squared = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double gap =
+                std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+            squared += gap * gap;
+        }
+        return std::sqrt(squared) * (1 - 0x1p-50);
+    }
+
     /// By what two links are apart, if that is less.
     static void lower(Interval& nearest, const std::vector<Shape>& link_a,
                       const std::vector<Shape>& link_b) {
         for (const Shape& a : link_a)
-            for (const Shape& b : link_b) {
-                if (surely_touch(a.solid, b.solid)) {
-                    nearest = {0, 0};
-                    return;
-                }
-                nearest.hi =
-                    std::min(nearest.hi, a.trees.inner.to(b.trees.inner, nearest.hi).distance);
-                const double lo = may_touch(a.solid, b.solid)
-                                      ? 0
-                                      : a.trees.outer.to(b.trees.outer, nearest.hi).lo;
-                nearest.lo = std::min(nearest.lo, lo);
-            }
+            for (const Shape& b : link_b)
+                lower(nearest, a, b);
+    }
+    static void lower(Interval& nearest, const Shape& a, const Shape& b) {
+        if (surely_touch(a.solid, b.solid)) {
+            nearest = {0, 0};
+            return;
+        }
+        nearest.hi = std::min(nearest.hi, a.trees.inner.to(b.trees.inner, nearest.hi).distance);
+        const double lo =
+            may_touch(a.solid, b.solid) ? 0 : a.trees.outer.to(b.trees.outer, nearest.hi).lo;
+        nearest.lo = std::min(nearest.lo, lo);
     }
 
     void judge_state(std::size_t i, const StateDistance& got, bool is_certified,

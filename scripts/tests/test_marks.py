@@ -1,12 +1,13 @@
 """Marks stand beside what was measured, reached or not."""
 
 import re
+import subprocess
 from types import SimpleNamespace
 
 import pytest
-from synthetic import SCRIPTS
+from synthetic import PROGRAM, SCRIPTS
 
-from boxwood_results import dropin_times, marks, published
+from boxwood_results import dropin_times, marks, published, robots
 from boxwood_results.findings import Comparison, Ratio
 from boxwood_results.run import Job, Where
 
@@ -101,7 +102,7 @@ def test_managers_are_held_by_programs(tmp_path):
     (KNOWN + "leest = 3\n", "key 'leest' is not known"), (KNOWN + "scenes = 3\n", "key 'scenes' is not known, or of another kind"),
     ('work = "w"\nmean = 3\nsweep = "narrow"\n', "key 'against' is missing"), ('work = "w"\nagainst = "a"\nmean = 3\n', "one of the keys"),
     (KNOWN + 'dropin = "bounds"\n', "one of the keys"), ('work = "w"\nagainst = "a"\nmean = 3\ndropin = "all"\n', "bounds or worlds"),
-    ('work = "w"\nagainst = "a"\nsweep = "narrow"\n', "neither 'mean' nor 'least'"), ("work = \n", "Invalid value")])
+    ('work = "w"\nagainst = "a"\nsweep = "narrow"\n', "none of 'mean', 'least', 'highest'"), ("work = \n", "Invalid value")])
 def test_a_faulty_mark_is_refused(tmp_path, text, fault):
     with pytest.raises(marks.BadFile, match=fault):
         one(tmp_path, text)
@@ -115,3 +116,23 @@ def test_the_marks_of_the_project_name_what_is_there():
             re.compile(pattern)
         assert not mark.sweep or (ROOT / "bench" / "configs" / f"{mark.sweep}.toml").exists()
     assert not {mark.sweep for mark in found} - {one.sweep for one in published.ALL} - {""}
+
+
+@pytest.mark.skipif(not PROGRAM.exists(), reason=f"{PROGRAM} is not built: scripts/setup builds it")
+def test_each_mark_finds_cells_in_its_sweep():
+    """Of what it names: else a slip in a pattern would read as 'not measured yet'."""
+    brought, missing = robots.options(ROOT, robots.folder_beside(ROOT))
+    cells_of = {}
+    for mark in marks.read(ROOT / marks.FILE):
+        if not mark.sweep or (mark.sweep == robots.SWEEP and missing):
+            continue
+        if mark.sweep not in cells_of:
+            listed = subprocess.run([PROGRAM, "sweep", "--config", ROOT / "bench" / "configs" / f"{mark.sweep}.toml", "--dry-run",
+                                     *(brought if mark.sweep == robots.SWEEP else [])], capture_output=True, text=True, check=True).stdout
+            cells_of[mark.sweep] = [name.split("/") for name in listed.split()]
+        cells = [(f"{scene}/{n.split('-s')[0]}", contender) for scene, n, task, contender, *_ in cells_of[mark.sweep]
+                 if task in mark.tasks and re.search(mark.scenes, scene)]
+        for role, pattern in (("ours", mark.ours), ("rivals", mark.rivals)):
+            assert any(re.search(pattern, contender) for _, contender in cells), f"{mark.work}: {role}"
+        for what, pattern in mark.needs.items():
+            assert any(re.search(pattern, job) for job, _ in cells), f"{mark.work}: {what}"
