@@ -169,16 +169,6 @@ TEST(Comparisons, SayWhereTheMemoryLayoutDecides) {
     }
 }
 
-TEST(NoiseFloor, IsThatOfTheNoisiestPhase) {
-    Maker maker(9);
-    const auto ours = maker.cell("ours", false);
-    maker.time(ours, Phase::build, steady(100));
-    maker.time(ours, Phase::query, steady(100));
-    maker.time(ours, Phase::build, steady(130), results::aa_twin);
-    maker.time(ours, Phase::query, steady(102), results::aa_twin);
-    EXPECT_NEAR(floor_of(maker.results).value(), 0.30, 1e-9);
-}
-
 TEST(ComparePeers, WhereOneSideKeepsNoStructureOnlyTheSumIsCompared) {
     Maker maker(9);
     const auto ours = maker.cell("ours", false), copies = maker.cell("copies", true);
@@ -423,34 +413,6 @@ TEST(NoiseFloor, IsThatOfTheKind) {
     const auto rows = against_peers(maker.results);
     EXPECT_EQ(row_of(rows, brief_peer, brief, Phase::query).verdict, Verdict::cannot_tell);
     EXPECT_EQ(row_of(rows, lengthy_peer, lengthy, Phase::query).verdict, Verdict::faster);
-    maker.time(brief, Phase::cold_build, steady(1e3));
-    maker.time(lengthy, Phase::cold_build, steady(1e7));
-    maker.time(brief, Phase::cold_build, steady(1.5e3), results::aa_twin);
-    EXPECT_NEAR(*floor_of(maker.results), 0.15, 1e-9); // what is not cold knows nothing of it
-    maker.time(lengthy, Phase::build, steady(1e7));
-    maker.time(lengthy, Phase::build, steady(1.4e7), results::aa_twin);
-    maker.time(brief, Phase::build, steady(1e3));
-    maker.time(brief, Phase::build, steady(1.05e3), results::aa_twin);
-    maker.time(lengthy, Phase::cold_query, steady(1e7));
-    maker.time(lengthy, Phase::cold_query, steady(1.3e7), results::aa_twin);
-    const Times times(maker.results);
-    const NoiseFloors floors(maker.results, times);
-    for (const auto& [phase, floor] : {std::pair{Phase::cold_build, .5},
-                                       {Phase::cold_query, .3}, // not that of a warm one
-                                       {Phase::build, .4},
-                                       {Phase::query, .01},
-                                       {Phase::build_and_query, .4}})
-        EXPECT_NEAR(*floors.of(maker.results.cells[lengthy], phase), floor, 1e-6);
-    for (const auto& [phase, floor] :
-         {std::pair{Phase::build, .05}, {Phase::query, .15}, {Phase::build_and_query, .15}})
-        EXPECT_NEAR(*floors.of(maker.results.cells[brief], phase), floor, 1e-6);
-    const auto mixed = maker.cell("brief build, long query", false);
-    maker.time(mixed, Phase::build, steady(1e3));
-    maker.time(mixed, Phase::query, steady(1e7));
-    const Times of_all(maker.results);
-    EXPECT_NEAR(
-        *NoiseFloors(maker.results, of_all).of(maker.results.cells[mixed], Phase::build_and_query),
-        .4, 1e-6); // as a long build
 }
 
 } // namespace

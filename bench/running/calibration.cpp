@@ -1,5 +1,8 @@
 #include "bench/running/calibration.h"
 
+#include "bench/machine/caches.h"
+#include "bench/machine/machine.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +17,15 @@ namespace boxwood::bench {
 namespace {
 
 constexpr std::string_view header = "build_iterations\tquery_iterations\tbuild_ns\tquery_ns\tcell";
+
+/// Beside the timed loops and their warm-up: contender, answers, hash.
+constexpr double set_up_s = 1e-3;
+
+/// The caches are flushed before each query.
+double flushes_s(const PlannedCell& cell) {
+    static const double flush_s = CacheFlush::guessed_s(read_machine(""));
+    return cell.cold_caches ? static_cast<double>(cell.scene.n_poses) * flush_s : 0;
+}
 
 } // namespace
 
@@ -53,6 +65,16 @@ Calibrations calibrations_of(std::string_view text) {
         calibrations.emplace(name, c);
     }
     return calibrations;
+}
+
+double cell_s(const PlannedCell& cell, const Calibration& calibration) {
+    return round_ns(calibration) * 1e-9 + set_up_s + flushes_s(cell);
+}
+
+double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
+    const double call =
+        1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays + cell.scene.n_points);
+    return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_s + flushes_s(cell);
 }
 
 std::set<std::string> choose_twins(const results::Results& prepared,

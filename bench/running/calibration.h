@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bench/plan/plan.h"
 #include "results/results.h"
 
 #include <cstdint>
@@ -24,8 +25,13 @@ using Calibrations = std::map<std::string, Calibration, std::less<>>;
 /// 10^7 times.
 std::uint64_t iterations_for(double target_ns, double ns);
 
-/// Expected time of a cell in one round: each phase once to warm up and then as calibrated.
+/// Expected time of the loops of a cell in one round: each phase once to warm up and then as
+/// calibrated.
 double round_ns(const Calibration& calibration);
+/// Of the whole cell, seconds.
+double cell_s(const PlannedCell& cell, const Calibration& calibration);
+/// Before anything was measured: a microsecond per item, ray, point and region for each phase.
+double guessed_cell_s(const PlannedCell& cell, double min_time_ms);
 
 /// As the table that /text/calibration holds, and back. Throws std::runtime_error for other text.
 std::string to_text(const Calibrations& calibrations);

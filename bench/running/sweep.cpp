@@ -8,9 +8,7 @@
 #include "bench/io/csv.h"
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
-#include "bench/machine/caches.h"
 #include "bench/machine/environment.h"
-#include "bench/machine/machine.h"
 #include "bench/machine/quiet.h"
 #include "bench/running/calibration.h"
 #include "bench/running/child.h"
@@ -35,27 +33,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a cell takes in a round beside its timed loops and their warm-up: contender, answers, hash.
-constexpr double set_up_ns = 1e6;
-
 constexpr double callgrind_slowdown = 50;
 
 constexpr std::size_t max_padding = 4096; ///< a page: beyond it all comes again
-
-double cell_s(const Calibration& calibration) { return (round_ns(calibration) + set_up_ns) * 1e-9; }
-
-/// What it takes in a round to flush the caches before each of its queries.
-double flushes_s(const PlannedCell& cell) {
-    static const double flush_s = CacheFlush::guessed_s(read_machine(""));
-    return cell.cold_caches ? static_cast<double>(cell.scene.n_poses) * flush_s : 0;
-}
-
-/// Before anything was measured: a microsecond per item, ray, point and region for each phase.
-double guessed_cell_s(const PlannedCell& cell, double min_time_ms) {
-    const double call =
-        1e-6 * static_cast<double>(cell.scene.n + cell.scene.n_rays + cell.scene.n_points);
-    return 2 * (call + std::max(call, min_time_ms * 1e-3)) + set_up_ns * 1e-9 + flushes_s(cell);
-}
 
 /// A sweep as its parent process sees it: children work, it waits, keeps and joins.
 class Sweep {
@@ -207,7 +187,7 @@ class Sweep {
         std::map<std::string, double> s_of; // by cell
         for (const PlannedCell& cell : plan_.cells)
             if (const auto found = calibrations.find(cell.name); found != calibrations.end()) {
-                s_of[cell.name] = cell_s(found->second) + flushes_s(cell);
+                s_of[cell.name] = cell_s(cell, found->second);
                 all_s += s_of[cell.name] *
                          static_cast<double>(std::ranges::count_if(
                              wanted, [&](unsigned round) { return cell.is_in(round); }));

@@ -423,14 +423,13 @@ def test_what_an_error_saves_has_a_row_for_each_scene():
     def row(scene, error, share, is_open=False, verdict="slower", is_certified=True):
         usual = {"task": SimpleNamespace(title="distance"), "scene_title": scene, "traversal": "distance", "contender": "median.obb.distance"}
         exact = SimpleNamespace(cell_id=scene, relative_error=0, median=lambda phase: 5e3, **usual)
-        return SimpleNamespace(a=exact, b=SimpleNamespace(relative_error=error, is_certified=is_certified), ratio=published_tables.Ratio(share, share, share), is_open=is_open,
-                               verdict=verdict)
+        other, ratio = SimpleNamespace(relative_error=error, is_certified=is_certified), published_tables.Ratio(share, share, share)
+        return SimpleNamespace(a=exact, b=other, ratio=ratio, is_open=is_open, verdict=verdict)
 
-    compared = [row("far", 0.1, 0.4), row("near", 0.001, 0.9, is_open=True), row("far", 0.001, 0.8), row("wrong", 0.1, 1, verdict="wrong"),
-                row("near", 0, 0.95, is_certified=False)]
-    header, *rows = published_tables.by_error(SimpleNamespace(family=lambda family, phase: compared))
+    compared = [row("far", 0.1, 0.4), row("near", 0.001, 0.9, is_open=True), row("near", 0, 0.95, is_certified=False), row("far", 0.001, 0.8), row("", 0.1, 1, verdict="wrong")]
+    header, *rows = published_tables.by_error(SimpleNamespace(family=lambda *_: compared))
     assert header[2:] == ["nothing", "nothing, not certified, of that", "0.1 %, of that", "10 %, of that"]
-    text = [published_tables.Ratio(share, share, share).text for share in (0.8, 0.4, 0.9, 0.95)]
+    text = [row("", 0, share).ratio.text for share in (0.8, 0.4, 0.9, 0.95)]
     assert rows == [["distance, far", "median.obb", "5.00 us", "", text[0], text[1]], ["distance, near", "median.obb", "5.00 us", text[3], f"{text[2]} ?", ""]]
 
 

@@ -178,32 +178,6 @@ template <bool counted, bool plain> class Search {
         return true;
     }
 
-    /// The lane whose centre is nearest to a point of the block's frame, but for those tried;
-    /// ObbBlock::width if there is none.
-    HWY_INLINE std::size_t nearest_lane(const ObbBlock& block, const Vec3<double>& p,
-                                        std::uint32_t* tried) {
-        const F8 x = hn::Set(d8, static_cast<float>(p.x - block.own.centre[0])),
-                 y = hn::Set(d8, static_cast<float>(p.y - block.own.centre[1])),
-                 z = hn::Set(d8, static_cast<float>(p.z - block.own.centre[2]));
-        alignas(64) float squared[8];
-        for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
-            const F8 dx = hn::Sub(hn::Load(d8, block.centre[0] + i), x);
-            const F8 dy = hn::Sub(hn::Load(d8, block.centre[1] + i), y);
-            const F8 dz = hn::Sub(hn::Load(d8, block.centre[2] + i), z);
-            hn::Store(dot3(dx, dy, dz, dx, dy, dz), d8, squared + i);
-        }
-        std::size_t best = ObbBlock::width;
-        float least = std::numeric_limits<float>::infinity();
-        for (std::size_t i = 0; i < block.count; ++i)
-            if (!(tried && *tried >> i & 1) && squared[i] < least) {
-                least = squared[i];
-                best = i;
-            }
-        if (tried && best < ObbBlock::width)
-            *tried |= 1u << best;
-        return best;
-    }
-
     HWY_INLINE void count_visit(std::size_t waiting) {
         if constexpr (counted) {
             ++work_->node_visits;
