@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 
 namespace boxwood::convex {
@@ -342,6 +344,30 @@ TEST(Within, SaysWhatTheBoundsSay) {
                 }
             }
     EXPECT_GE(decided, all - all / 2000);
+}
+
+/// Around one centre several directions are as good; the points belong to the one that is said.
+TEST(SignedDistance, PointsBelongToTheNormalAroundOneCentre) {
+    std::mt19937 random(7);
+    const auto quarters = [&] { return .25 * std::uniform_int_distribution<int>(1, 6)(random); };
+    const auto shape = [&](int kind) -> Shape {
+        const double x = quarters(), y = quarters(), z = quarters();
+        return kind == 0   ? Shape(Box{{x, y, z}})
+               : kind == 1 ? Shape(Capsule{x, y})
+                           : Shape(Cylinder{x, y});
+    };
+    int n_narrow = 0, n_bad = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const SignedDistance d =
+            signed_distance(shape(i % 3), at(0, 0, 0), shape(i / 3 % 3), at(0, 0, 0));
+        if (!(d.hi < 0 && d.hi - d.lo < 1e-7))
+            continue;
+        ++n_narrow;
+        n_bad += length(d.point_b - d.point_a - d.distance * d.normal) >
+                 1e-4 + 10 * std::sqrt(4 * (d.hi - d.lo));
+    }
+    EXPECT_GT(n_narrow, 2000);
+    EXPECT_EQ(n_bad, 0);
 }
 
 } // namespace

@@ -35,8 +35,8 @@ struct SlabBounds {
 /// Why no true hit is lost, u = 2^-24. Take d > 0 (d < 0 mirrors it), a box within bounds, and a
 /// hit at t with near <= o + d t. rdir = (1 + e) / d, |e| <= u, so (near - o) rdir is at most
 /// t + u (|near| + |o|) rdir (1 + 2u). A product that is rounded on its own adds u |near| rdir, and
-/// the roundings of the shift take 3u |o| rdir and 3u of `pad` and of `margin`: `pad` holds
-/// 6u (|o| + |near|) rdir for these 4u and 2u. So the difference is at most t before its last
+/// the roundings of the shift take 3u |o| rdir, up to 6u of `pad` itself and 3u of `margin`: `pad`
+/// holds 6u (|o| + |near|) rdir for these 4u and 2u. So the difference is at most t before its last
 /// rounding, and that is monotone. The exit mirrors it. What this costs: planes move by a few ulp
 /// of the coordinates.
 ///

@@ -69,8 +69,9 @@ struct MeshDistance {
 MeshDistance distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                       const DistanceOptions& options = {}, Work* work = nullptr);
 /// The same without its certificate, to show what that costs: pairs of triangles stand as plain
-/// doubles measure them. lo = hi = distance, off by some 2^-50 of the size of both, and nothing is
-/// promised: two that touch may be said to be a little apart.
+/// doubles measure them. lo = hi = distance, beside the tolerances usually off by some 2^-50 of the
+/// size of both, by 2^-36 where edges are nearly parallel, and nothing is promised: two that touch
+/// may be said to be a little apart.
 MeshDistance plain_distance(const MeshTree& a, const MeshTree& b, const Pose& b_in_a,
                             const DistanceOptions& options = {}, Work* work = nullptr);
 

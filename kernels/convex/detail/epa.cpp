@@ -85,18 +85,23 @@ class Polytope {
         return true;
     }
 
-    /// Where the surface is nearest to the origin: on a face whose offset is at most this.
-    void nearest(double offset, CoreDistance& found) const {
-        double least = inf;
+    /// The point of a face whose normal is nearest to the one that was found, among those that are
+    /// as near to the origin as the bounds say, up to `least`: of symmetric shapes several are.
+    void take_points(double least, CoreDistance& found) const {
+        const double depth = -found.lo * (1 + 0x1p-36) + least;
+        double nearest = inf, alignment = -inf;
         for (Index face = 0; face < face_count_; ++face) {
-            if (!(offset_[face] <= offset))
+            if (!(offset_[face] <= depth))
                 continue;
             const auto [i, j, k] = faces_[face].corner;
             const Vertices corners{vertices_[i], vertices_[j], vertices_[k]};
             Nearest on_face;
             find_nearest(corners, 0b111, true, on_face);
-            if (const double d = length(on_face.point); d < least) {
-                least = d;
+            const double d = std::max(length(on_face.point), depth);
+            const double aligned = dot(faces_[face].normal, found.normal);
+            if (d < nearest || (d == nearest && aligned > alignment)) {
+                nearest = d;
+                alignment = aligned;
                 found.between = on_face.point;
                 found.on_a = on_face.on_a(corners);
             }
@@ -315,7 +320,7 @@ bool expand(const Probe& probe, const Simplex& tetrahedron, const Goal& goal) {
     }
     const double offset = polytope.offset(face);
     if (offset > 0 && -offset < found.hi && polytope.goes_around()) {
-        polytope.nearest(offset * (1 + 0x1p-36) + least, found);
+        polytope.take_points(least, found);
         found.hi = -offset;
     }
     return polytope.is_sure() || goal.reached(found.lo, found.hi);

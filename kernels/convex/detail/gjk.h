@@ -152,7 +152,7 @@ CoreDistance nearest_to_origin(const D& difference, Vec3<double> start, const Go
         if (nearest->used >> i & 1)
             ended.add(vertices[i]);
     if (const double depth = -1.25 * goal.hi_enough;
-        found.overlapping && depth > 0 &&
+        found.overlapping && depth > 0 && depth < inf &&
         (nearest->encloses ? encloses_ball(vertices, depth)
                            : surrounds_ball(difference, ended, depth)))
         found.hi = -depth;
