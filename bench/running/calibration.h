@@ -39,11 +39,11 @@ Calibrations calibrations_of(std::string_view text);
 
 /// The A/A cells, which each round times twice: of each kind (ours on one thread or on several,
 /// with a query below a millisecond or not, with queries after a flush of the caches; peers) the
-/// right one that takes the least time, if it
-/// takes more than a tenth of the time of the round only where there is no other twin; one of
-/// `in_fewer_rounds` only where its kind has no other. And of each kind those in the places a
-/// quarter and a half up its order by time, the quickest first, while all of these take less than a
-/// tenth of the round: one cell alone may lie well or badly in memory.
+/// right one that takes the least time, if it takes more than a tenth of the time of the round only
+/// where there is no other twin; one of `in_fewer_rounds` only where its kind has no other. And of
+/// each kind those in the places a quarter and a half up its order by time, the quickest first,
+/// while all of these take less than a tenth of the round: one cell alone may lie well or badly in
+/// memory.
 std::set<std::string> choose_twins(const results::Results& prepared,
                                    const Calibrations& calibrations,
                                    const std::set<std::string>& in_fewer_rounds = {},

@@ -42,6 +42,15 @@ double size_of(const Aabb<double>& box) {
 
 } // namespace
 
+double gap_of(const Aabb<double>& a, const Aabb<double>& b) {
+    double squared = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
+        squared += d * d;
+    }
+    return std::sqrt(squared) * (1 - 0x1p-50);
+}
+
 NearestTriangles::NearestTriangles(std::span<const Triangle<double>> triangles)
     : triangles_(triangles.begin(), triangles.end()), order_(triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0u);
@@ -112,14 +121,8 @@ class NearestTriangles::Search {
     template <class A, class B>
     double bound(const A& a, const B& b, const Aabb<double>& box_a,
                  const Aabb<double>& box_b) const {
-        double squared = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double d = std::max(
-                {0.0, box_a.min[axis] - box_b.max[axis], box_b.min[axis] - box_a.max[axis]});
-            squared += d * d;
-        }
-        const double apart = std::sqrt(squared) * (1 - 0x1p-50);
-        return std::max(apart, gap(reach(a, direction_), reach(b, direction_)) - rounding_);
+        return std::max(gap_of(box_a, box_b),
+                        gap(reach(a, direction_), reach(b, direction_)) - rounding_);
     }
     double bound(const Node& a, const Node& b) const { return bound(a.box, b.box, a.box, b.box); }
 

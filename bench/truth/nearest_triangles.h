@@ -11,6 +11,9 @@
 
 namespace boxwood::bench {
 
+/// No two points of the boxes are nearer.
+double gap_of(const Aabb<double>& a, const Aabb<double>& b);
+
 /// The least distance of two sets of triangles, for judges: boxes of halves in doubles leave out
 /// what cannot be nearest, and rationals decide on the rest. Nothing of trees/ is in it.
 class NearestTriangles {

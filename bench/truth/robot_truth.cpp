@@ -235,17 +235,6 @@ class RobotDistanceTruth final : public Truth {
         }
         return nearest;
     }
-    /// No two points of the boxes are nearer.
-    static double gap_of(const Aabb<double>& a, const Aabb<double>& b) {
-        double squared = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double gap =
-                std::max({0.0, a.min[axis] - b.max[axis], b.min[axis] - a.max[axis]});
-            squared += gap * gap;
-        }
-        return std::sqrt(squared) * (1 - 0x1p-50);
-    }
-
     /// By what two links are apart, if that is less.
     static void lower(Interval& nearest, const std::vector<Shape>& link_a,
                       const std::vector<Shape>& link_b) {

@@ -147,7 +147,7 @@ def row_of(mark, gains):
     return [mark.work, mark.against, mark.text, str(len(gains)), f"{ratio_text(mean)}x", f"{worst.text}: {worst.where}", reached(mark, gains)]
 
 
-HEADER = ["work", "against", "mark: geometric mean, least", "measured in", "geometric mean", "least, or what may be at most so much: the greatest (interval)", "reached"]
+HEADER = ["work", "against", "mark: geometric mean, least", "measured in", "geometric mean", "least, or greatest of what may be at most so much (interval)", "reached"]
 
 
 def table(marks, runs, dropin):

@@ -207,6 +207,12 @@ def against_ourselves(run):
     return rows
 
 
+def kind_of_error(cell):
+    """(relative error, whether it is not certified, both in words): the order of the columns."""
+    text = f"{100 * cell.relative_error:g} %" if cell.relative_error else "nothing"
+    return cell.relative_error, not cell.is_certified, text if cell.is_certified else f"{text}, not certified"
+
+
 def by_error(run):
     """What an error that an answer may have saves, or bounds without a certificate, ours against ours: what accuracy costs."""
     rows_of = {}
@@ -214,14 +220,10 @@ def by_error(run):
         if row.verdict == "wrong":
             continue
         rows_of.setdefault(row.a.cell_id, []).append(row)
-    def kind(cell):
-        return cell.relative_error, not cell.is_certified
-
-    kinds = sorted({kind(row.b) for of in rows_of.values() for row in of})
-    rows = [["the answer may be too far by", "ours", "nothing", *(
-        f"{f'{100 * error:g} %' if error else 'nothing'}{', not certified' if is_plain else ''}, of that" for error, is_plain in kinds)]]
+    kinds = sorted({kind_of_error(row.b) for of in rows_of.values() for row in of})
+    rows = [["the answer may be too far by", "ours", "nothing", *(f"{text}, of that" for *_, text in kinds)]]
     for of in rows_of.values():
-        exact, shares = of[0].a, {kind(row.b): marked(row.ratio.text, row) for row in of}
+        exact, shares = of[0].a, {kind_of_error(row.b): marked(row.ratio.text, row) for row in of}
         rows.append([f"{exact.task.title}, {exact.scene_title}", exact.contender.removesuffix(f".{exact.traversal}"),
                      time_text(exact.median("query")), *(shares.get(one, "") for one in kinds)])
     return rows

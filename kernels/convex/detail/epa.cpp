@@ -85,20 +85,21 @@ class Polytope {
         return true;
     }
 
-    /// The point of a face whose normal is nearest to the one that was found, among those that are
-    /// as near to the origin as the bounds say, up to `least`: of symmetric shapes several are.
-    void take_points(double least, CoreDistance& found) const {
-        const double depth = -found.lo * (1 + 0x1p-36) + least;
+    /// The points of the face whose normal is nearest to the one that was found, among those that
+    /// are as near to the origin as the bounds say, up to `slack`: of symmetric shapes several are.
+    /// offset: the least of all.
+    void take_points(double offset, double slack, CoreDistance& found) const {
+        const double depth = std::max(offset, -found.lo) * (1 + 0x1p-36) + slack;
         double nearest = inf, alignment = -inf;
         for (Index face = 0; face < face_count_; ++face) {
-            if (!(offset_[face] <= depth))
+            const double aligned = dot(faces_[face].normal, found.normal);
+            if (!(offset_[face] <= depth) || (nearest == depth && !(aligned > alignment)))
                 continue;
             const auto [i, j, k] = faces_[face].corner;
             const Vertices corners{vertices_[i], vertices_[j], vertices_[k]};
             Nearest on_face;
             find_nearest(corners, 0b111, true, on_face);
             const double d = std::max(length(on_face.point), depth);
-            const double aligned = dot(faces_[face].normal, found.normal);
             if (d < nearest || (d == nearest && aligned > alignment)) {
                 nearest = d;
                 alignment = aligned;
@@ -320,7 +321,7 @@ bool expand(const Probe& probe, const Simplex& tetrahedron, const Goal& goal) {
     }
     const double offset = polytope.offset(face);
     if (offset > 0 && -offset < found.hi && polytope.goes_around()) {
-        polytope.take_points(least, found);
+        polytope.take_points(offset, least, found);
         found.hi = -offset;
     }
     return polytope.is_sure() || goal.reached(found.lo, found.hi);

@@ -83,20 +83,19 @@ inline double touching_size(double size) { return 16 * u * size; }
 /// Whether a ball around the origin, which an edge or a face of the simplex goes through, is in the
 /// difference: proven by the farthest points on all sides of it.
 template <class D> bool surrounds_ball(const D& difference, const Simplex& s, double radius) {
-    const Vec3<double> a = s.vertex[0].w, b = s.vertex[1].w;
-    std::array<Vec3<double>, 4> ring{a, b, s.vertex[2].w, {}};
-    if (s.size < 2 || s.size > 3)
-        return false;
+    std::array<Vec3<double>, 4> ring;
+    Vec3<double> up;
     if (s.size == 2) {
-        const Vec3<double> across = square_to(b - a);
+        const Vec3<double> a = s.vertex[0].w, b = s.vertex[1].w, across = square_to(b - a);
         ring = {a, difference.along(across).w, b, difference.along(-across).w};
-    }
-    const Vec3<double> up =
-        s.size == 2 ? cross(ring[1] - ring[3], b - a) : cross(b - a, ring[2] - a);
-    if (!usable(up))
+        up = cross(ring[1] - ring[3], b - a);
+    } else if (s.size == 3) {
+        ring = {s.vertex[0].w, s.vertex[1].w, s.vertex[2].w};
+        up = cross(ring[1] - ring[0], ring[2] - ring[0]);
+    } else
         return false;
-    return encloses_ball(std::span(ring).first(s.size == 2 ? 4 : 3), difference.along(up).w,
-                         difference.along(-up).w, radius);
+    return usable(up) && encloses_ball(std::span(ring).first(s.size == 2 ? 4 : 3),
+                                       difference.along(up).w, difference.along(-up).w, radius);
 }
 
 /// start: from a towards b. `ended` is the simplex where the search ended.

@@ -45,7 +45,6 @@ struct Simplex {
     int size = 0;
 
     void add(const Vertex& v) { vertex[static_cast<std::size_t>(size++)] = v; }
-    unsigned all() const { return (1u << size) - 1; }
 };
 
 /// Whether the ball of this radius around the origin is in the tetrahedron: proven, as each face is
