@@ -132,48 +132,58 @@ HWY_INLINE void push_sorted(const Node& node, std::uint32_t bits, const float* e
 }
 
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
-/// The lane of the least entry (>= 0) among the lanes of `bits`, of which there is one at least;
-/// entries count as push_sorted_eight rounds them.
-template <class V> HWY_INLINE std::uint32_t nearest_of(V entry, std::uint32_t bits) {
+/// The entries (>= 0) of eight lanes as numbers that are all different: rounded down to multiples
+/// of eight ulp, with the lane below.
+template <class V> HWY_INLINE auto keys_of(V entry) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-    const auto key =
-        hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
-    auto min_key = hn::IfThenElse(hn::LoadMaskBits(du, bytes), key, hn::Set(du, ~std::uint32_t{0}));
-    min_key = hn::Min(min_key, hn::ConcatLowerUpper(du, min_key, min_key));
-    min_key = hn::Min(min_key, hn::Shuffle1032(min_key));
-    min_key = hn::Min(min_key, hn::Shuffle2301(min_key));
-    return hn::GetLane(min_key) & 7;
+    return hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
 }
 
-/// As push_sorted for the entries (>= 0) of eight lanes in one register, without a branch: a
-/// network of 19 comparisons. Entries are rounded down to multiples of eight ulp, which hold the
-/// lane; eight are written whatever `bits`.
-template <class V>
-HWY_INLINE void push_sorted_eight(const std::uint32_t* refs, std::uint32_t bits, V entry,
-                                  WaitingNode* stack) {
+/// In every lane the least key of the lanes that are hit, of which there is one at least.
+template <class V, class M> HWY_INLINE V least_key(V keys, M hit) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
-    const auto lanes = hn::Set(du, 7u);
-    const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits)};
-    const auto hit = hn::LoadMaskBits(du, bytes);
-    auto key = hn::IfThenElseZero(
-        hit, hn::Or(hn::AndNot(lanes, hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0)));
-    alignas(32) static constexpr std::uint32_t partner[6][8] = {
-        {2, 3, 0, 1, 6, 7, 4, 5}, {4, 5, 6, 7, 0, 1, 2, 3}, {1, 0, 3, 2, 5, 4, 7, 6},
-        {0, 1, 4, 5, 2, 3, 6, 7}, {0, 4, 2, 6, 1, 5, 3, 7}, {0, 2, 1, 4, 3, 6, 5, 7}};
-    static constexpr std::uint8_t takes_less[6] = {0b11001100, 0b11110000, 0b10101010,
-                                                   0b00110000, 0b01010000, 0b01010100};
-#pragma GCC unroll 6
-    for (int step = 0; step < 6; ++step) {
-        const auto other = hn::TableLookupLanes(key, hn::SetTableIndices(du, partner[step]));
-        key = hn::IfThenElse(hn::LoadMaskBits(du, &takes_less[step]), hn::Min(key, other),
-                             hn::Max(key, other));
-    }
-    const auto sorted =
-        hn::TableLookupLanes(hn::LoadU(du, refs), hn::IndicesFromVec(du, hn::And(key, lanes)));
-    hn::StoreInterleaved2(sorted, hn::AndNot(lanes, key), du,
+    V least = hn::IfThenElse(hit, keys, hn::Set(du, ~std::uint32_t{0}));
+    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
+    least = hn::Min(least, hn::Shuffle1032(least));
+    return hn::Min(least, hn::Shuffle2301(least));
+}
+
+/// The greatest first: sorts four and four, then merges them. All steps but one stay within four
+/// lanes: from one half of a register to the other a number takes three to eight times as long.
+template <class V> HWY_INLINE V in_descending_order(V keys) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const hn::CappedTag<std::uint64_t, 4> pairs;
+    const auto every_second_takes_less = [&](V other) HWY_ATTR {
+        keys = hn::OddEven(hn::Min(keys, other), hn::Max(keys, other));
+    };
+    const auto every_second_pair_takes_less = [&](V other) HWY_ATTR {
+        keys = hn::BitCast(du, hn::OddEven(hn::BitCast(pairs, hn::Min(keys, other)),
+                                           hn::BitCast(pairs, hn::Max(keys, other))));
+    };
+    every_second_pair_takes_less(hn::Shuffle1032(keys));
+    every_second_takes_less(hn::Shuffle2301(keys));
+    every_second_pair_takes_less(hn::InterleaveLower(du, keys, hn::Shuffle1032(keys)));
+    const V other = hn::Shuffle0123(hn::ConcatLowerUpper(du, keys, keys));
+    keys = hn::ConcatUpperLower(du, hn::Min(keys, other), hn::Max(keys, other));
+    every_second_pair_takes_less(hn::Shuffle1032(keys));
+    every_second_takes_less(hn::Shuffle2301(keys));
+    return keys;
+}
+
+/// As push_sorted for the keys of eight lanes, without a branch. Those that are not to be on the
+/// stack are 0, and written above its top.
+template <class V>
+HWY_INLINE void push_sorted_eight(const std::uint32_t* refs, V keys, WaitingNode* stack) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint32_t, 8> du;
+    const V lanes = hn::Set(du, 7u);
+    keys = in_descending_order(keys);
+    const V sorted =
+        hn::TableLookupLanes(hn::LoadU(du, refs), hn::IndicesFromVec(du, hn::And(keys, lanes)));
+    hn::StoreInterleaved2(sorted, hn::AndNot(lanes, keys), du,
                           reinterpret_cast<std::uint32_t*>(stack));
 }
 #endif

@@ -48,7 +48,8 @@ HWY_INLINE Waiting* push_hit_children(const Node& node, const NodeClip<Node>& cl
         } else {
             bits |= lane_bits(df, hit, i);
             if constexpr (in_register<Node>)
-                push_sorted_eight(node.ref, bits, entry, top);
+                push_sorted_eight(node.ref,
+                                  hn::IfThenElseZero(hn::RebindMask(du, hit), keys_of(entry)), top);
             else
                 hn::Store(entry, df, entries + i);
         }

@@ -78,8 +78,9 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         [[maybe_unused]] alignas(64) float entries[Node::width];
         std::uint32_t bits = 0;
         V entry;
+        hn::Mask<D> hit;
         for (std::size_t i = 0; i < Node::width; i += hn::Lanes(df)) {
-            const auto hit = clip.hits_of(node, i, t_max, entry);
+            hit = clip.hits_of(node, i, t_max, entry);
             bits |= lane_bits(df, hit, i);
             if constexpr (!closest) {
                 hn::StoreU(compressed(du, hn::LoadU(du, node.ref + i), hn::RebindMask(du, hit)), du,
@@ -95,26 +96,32 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
             --top_;
             at = node.ref[std::bit_width(bits) - 1]; // what is on top, without waiting for it
         } else {
-            at = nearest_child(node, bits, entries, entry);
+            at = nearest_child(node, bits, entries, entry, hit);
         }
         return true;
     }
 
-    /// entries: of all lanes, or if they are `in_register` in `entry`.
+    /// entries: of all lanes, or if they are `in_register` in `entry`; those of `hit` are bits.
     HWY_INLINE std::uint32_t nearest_child(const Node& node, std::uint32_t bits,
                                            [[maybe_unused]] const float* entries,
-                                           [[maybe_unused]] V entry) {
+                                           [[maybe_unused]] V entry,
+                                           [[maybe_unused]] hwy::HWY_NAMESPACE::Mask<D> hit) {
         const auto first = static_cast<std::uint32_t>(std::countr_zero(bits));
         const std::uint32_t others = bits & (bits - 1);
         if (others == 0)
             return node.ref[first];
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
         if constexpr (in_register<Node>) {
-            const std::uint32_t near = nearest_of(entry, bits), rest = bits & ~(1u << near);
-            push_sorted_eight(node.ref, rest, entry, top_);
-            top_ += std::popcount(rest);
+            namespace hn = hwy::HWY_NAMESPACE;
+            const hn::Rebind<std::uint32_t, D> du;
+            const auto is_hit = hn::RebindMask(du, hit);
+            const auto keys = keys_of(entry), near = least_key(keys, is_hit);
+            const std::uint32_t ref = node.ref[hn::GetLane(near) & 7];
+            push_sorted_eight(
+                node.ref, hn::IfThenElseZero(hn::AndNot(hn::Eq(keys, near), is_hit), keys), top_);
+            top_ += std::popcount(others);
             fetch(top_[-1].ref);
-            return node.ref[near];
+            return ref;
         }
 #endif
         if ((others & (others - 1)) == 0) {
