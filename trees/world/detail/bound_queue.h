@@ -36,7 +36,7 @@ class BoundQueue {
     /// The bound must not be below 0, and there must be room.
     void push(const NearEntry& entry) {
         const float at = std::min(entry.bound * per_bound_, static_cast<float>(n_buckets - 1));
-        const auto bucket = static_cast<std::size_t>(at);
+        const auto bucket = static_cast<std::uint32_t>(static_cast<std::int32_t>(at));
         const std::uint16_t place = free_;
         free_ = below_[place];
         entries_[place] = entry;

@@ -151,7 +151,8 @@ class LeafPair {
     const MovedLeaf& moved() const { return moved_; }
 
     /// Bounds of the distances of triangle i of A and all of B: by their boxes, along the way
-    /// between their middles, and along the normals of both. Bits of those that are near enough.
+    /// between their middles, and along the normals of both. Bits of those that are near enough,
+    /// whose bounds alone are written.
     HWY_INLINE std::uint32_t bound_triangles(std::size_t i, float wanted_distance,
                                              float* bounds) const {
         std::uint32_t bits = 0;
@@ -168,6 +169,11 @@ class LeafPair {
             }
             F8 bound = hn::Max(hn::Sqrt(squared), hn::Sub(hn::Load(d8, heights_.low_b + lane),
                                                           hn::Set(d8, heights_.high_a[i])));
+            const auto less_error = [&](F8 x) HWY_ATTR {
+                return hn::Sub(hn::Mul(x, hn::Set(d8, 1 - 0x1p-20f)), hn::Set(d8, error_));
+            };
+            if (hn::AllFalse(d8, hn::Lt(less_error(bound), wanted)))
+                continue;
             // Along A's normal.
             const F8 n[3] = {hn::Set(d8, normals_a_.normal[0][i]),
                              hn::Set(d8, normals_a_.normal[1][i]),
@@ -197,7 +203,7 @@ class LeafPair {
             const F8 high_a = hn::Max(hn::Max(h[0], h[1]), h[2]);
             bound = hn::Max(bound, hn::Max(hn::Sub(low_a, hn::Load(d8, normals_b_.high + lane)),
                                            hn::Sub(hn::Load(d8, normals_b_.low + lane), high_a)));
-            bound = hn::Sub(hn::Mul(bound, hn::Set(d8, 1 - 0x1p-20f)), hn::Set(d8, error_));
+            bound = less_error(bound);
             hn::Store(bound, d8, bounds + lane);
             std::uint8_t part[8] = {};
             hn::StoreMaskBits(d8, hn::Lt(bound, wanted), part);

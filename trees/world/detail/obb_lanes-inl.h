@@ -61,81 +61,87 @@ HWY_INLINE void see_lanes(const ObbBlock& block, const PairFrame& frame, const V
     }
 }
 
-/// How one box lies to the lanes [i, i + Lanes(d8)) of eight others, along the six axes: distances
-/// of centres and the sums of half lengths.
-struct SixAxes {
-    F8 apart[6], sum[6]; ///< of the one's axes, then of the lanes' own
-    F8 t[3];             ///< between the centres
+/// From the centre of one box to those of the lanes [i, i + Lanes(d8)) of eight others.
+struct Between {
+    F8 t[3];
 
     template <class Centre>
-    HWY_INLINE SixAxes(const SeenBox& one, const Centre& centre, const float (&axis)[3][3][8],
-                       const float (&half)[3][8], std::size_t i) {
+    HWY_INLINE Between(const SeenBox& one, const Centre& centre, std::size_t i) {
         for (std::size_t k = 0; k < 3; ++k)
             t[k] = hn::Sub(hn::Load(d8, centre[k] + i), hn::Set(d8, one.centre[k]));
-        F8 own[3], half_of[3];
-        for (std::size_t k = 0; k < 3; ++k) {
-            half_of[k] = hn::Load(d8, half[k] + i);
-            own[k] = half_of[k];
-        }
-        const F8 x0 = hn::Set(d8, one.half[0]), x1 = hn::Set(d8, one.half[1]),
-                 x2 = hn::Set(d8, one.half[2]);
-        const F8 ones[3] = {x0, x1, x2};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const F8 nx = hn::Set(d8, one.axis[k][0]), ny = hn::Set(d8, one.axis[k][1]),
-                     nz = hn::Set(d8, one.axis[k][2]);
-            apart[k] = hn::Abs(dot3(nx, ny, nz, t[0], t[1], t[2]));
-            sum[k] = ones[k];
-            for (std::size_t j = 0; j < 3; ++j) {
-                const F8 cosine =
-                    hn::Abs(dot3(nx, ny, nz, hn::Load(d8, axis[j][0] + i),
-                                 hn::Load(d8, axis[j][1] + i), hn::Load(d8, axis[j][2] + i)));
-                sum[k] = hn::MulAdd(cosine, half_of[j], sum[k]);
-                own[j] = hn::MulAdd(cosine, ones[k], own[j]);
-            }
-        }
-        for (std::size_t j = 0; j < 3; ++j) {
-            apart[3 + j] = hn::Abs(dot3(hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
-                                        hn::Load(d8, axis[j][2] + i), t[0], t[1], t[2]));
-            sum[3 + j] = own[j];
-        }
     }
-
-    /// The greatest gap along an axis; below 0 where they overlap along all.
-    HWY_INLINE F8 greatest_gap() const {
-        F8 gap = hn::Sub(apart[0], sum[0]);
-        for (std::size_t k = 1; k < 6; ++k)
-            gap = hn::Max(gap, hn::Sub(apart[k], sum[k]));
-        return gap;
-    }
-
-    HWY_INLINE F8 centres_squared() const { return dot3(t[0], t[1], t[2], t[0], t[1], t[2]); }
-
-    /// A bound of the distance from below, but for the frame's error: in the one's frame, in the
-    /// lane's, and along the line of centres.
-    HWY_INLINE F8 distance_bound(const SeenBox& one, const float (&half)[3][8],
-                                 std::size_t i) const {
-        const F8 zero = hn::Zero(d8);
-        F8 squared[2];
-        for (std::size_t side = 0; side < 2; ++side) {
-            squared[side] = zero;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const F8 gap = hn::Max(hn::Sub(apart[3 * side + k], sum[3 * side + k]), zero);
-                squared[side] = hn::MulAdd(gap, gap, squared[side]);
-            }
-        }
-        const F8 tt = centres_squared();
-        F8 left = tt;
-        for (std::size_t k = 0; k < 3; ++k) {
-            left = hn::NegMulAdd(hn::Set(d8, one.half[k]), apart[k], left);
-            left = hn::NegMulAdd(hn::Load(d8, half[k] + i), apart[3 + k], left);
-        }
-        // left / |t|, squared; the quotient first, as left^2 may overflow.
-        left = hn::Max(left, zero);
-        const F8 between = hn::Mul(left, hn::Div(left, hn::Max(tt, hn::Set(d8, 0x1p-100f))));
-        return hn::Mul(hn::Sqrt(hn::Max(hn::Max(squared[0], squared[1]), between)),
-                       hn::Set(d8, 1 - 0x1p-20f));
-    }
+    HWY_INLINE F8 squared() const { return dot3(t[0], t[1], t[2], t[0], t[1], t[2]); }
 };
+
+/// How one box lies to the lanes of eight others along six axes: of_one(k, apart, sum) for its own,
+/// then of_lane(k, apart, sum) for theirs; the distances of the centres and the sums of the half
+/// lengths. Taken one by one, since sixteen registers do not hold all.
+template <class OfOne, class OfLane>
+HWY_INLINE void along_six_axes(const SeenBox& one, const Between& between,
+                               const float (&axis)[3][3][8], const float (&half)[3][8],
+                               std::size_t i, const OfOne& of_one, const OfLane& of_lane) {
+    const F8(&t)[3] = between.t;
+    F8 sum_of_lane[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        sum_of_lane[k] = hn::Load(d8, half[k] + i);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const F8 nx = hn::Set(d8, one.axis[k][0]), ny = hn::Set(d8, one.axis[k][1]),
+                 nz = hn::Set(d8, one.axis[k][2]);
+        const F8 own = hn::Set(d8, one.half[k]);
+        F8 sum = own;
+        for (std::size_t j = 0; j < 3; ++j) {
+            const F8 cosine =
+                hn::Abs(dot3(nx, ny, nz, hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
+                             hn::Load(d8, axis[j][2] + i)));
+            sum = hn::MulAdd(cosine, hn::Load(d8, half[j] + i), sum);
+            sum_of_lane[j] = hn::MulAdd(cosine, own, sum_of_lane[j]);
+        }
+        of_one(k, hn::Abs(dot3(nx, ny, nz, t[0], t[1], t[2])), sum);
+    }
+    for (std::size_t j = 0; j < 3; ++j)
+        of_lane(j,
+                hn::Abs(dot3(hn::Load(d8, axis[j][0] + i), hn::Load(d8, axis[j][1] + i),
+                             hn::Load(d8, axis[j][2] + i), t[0], t[1], t[2])),
+                sum_of_lane[j]);
+}
+
+/// The greatest gap along an axis; below 0 where they overlap along all.
+HWY_INLINE F8 greatest_gap(const SeenBox& one, const Between& between, const float (&axis)[3][3][8],
+                           const float (&half)[3][8], std::size_t i) {
+    F8 gap = hn::Set(d8, -std::numeric_limits<float>::infinity());
+    const auto take = [&](std::size_t, F8 apart, F8 sum)
+                          HWY_ATTR { gap = hn::Max(gap, hn::Sub(apart, sum)); };
+    along_six_axes(one, between, axis, half, i, take, take);
+    return gap;
+}
+
+/// A bound of the distance from below, but for the frame's error: in the one's frame, in the
+/// lane's, and along the line of centres.
+HWY_INLINE F8 distance_bound(const SeenBox& one, const Between& between,
+                             const float (&axis)[3][3][8], const float (&half)[3][8],
+                             std::size_t i) {
+    const F8 zero = hn::Zero(d8);
+    F8 squared = zero, squared_of_lane = zero;
+    const F8 tt = between.squared();
+    F8 left = tt;
+    along_six_axes(
+        one, between, axis, half, i,
+        [&](std::size_t k, F8 apart, F8 sum) HWY_ATTR {
+            const F8 gap = hn::Max(hn::Sub(apart, sum), zero);
+            squared = hn::MulAdd(gap, gap, squared);
+            left = hn::NegMulAdd(hn::Set(d8, one.half[k]), apart, left);
+        },
+        [&](std::size_t k, F8 apart, F8 sum) HWY_ATTR {
+            const F8 gap = hn::Max(hn::Sub(apart, sum), zero);
+            squared_of_lane = hn::MulAdd(gap, gap, squared_of_lane);
+            left = hn::NegMulAdd(hn::Load(d8, half[k] + i), apart, left);
+        });
+    // left / |t|, squared; the quotient first, as left^2 may overflow.
+    left = hn::Max(left, zero);
+    const F8 along = hn::Mul(left, hn::Div(left, hn::Max(tt, hn::Set(d8, 0x1p-100f))));
+    return hn::Mul(hn::Sqrt(hn::Max(hn::Max(squared, squared_of_lane), along)),
+                   hn::Set(d8, 1 - 0x1p-20f));
+}
 
 /// The lane whose centre is nearest to a point of the block's frame, but for those tried;
 /// ObbBlock::width if there is none.
