@@ -30,10 +30,12 @@ BOXWOOD_TRAVERSED_LAYOUTS(X)
 #undef X
 
 /// Rays at a mesh for callers who have one at a time: each is answered at once, as AnyLayout::rays
-/// answers it. What all rays share is looked up here, so that a call finds no name, no layout and
-/// no instruction set, and allocates nothing; but kernels other than moller_trumbore_f32, _f64 and
-/// watertight, the binary layouts and trees too deep for a stack of 4 KiB go through AnyLayout.
-/// Any number of threads may call it at a time. Layout and triangles must outlive it.
+/// answers it, but where a kernel in plain numbers is wrong about a t (products that underflow, in
+/// meshes of 1e-20 across): there the two may find different triangles. What all rays share is
+/// looked up here, so that a call finds no name, no layout and no instruction set, and allocates
+/// nothing; but kernels other than moller_trumbore_f32, _f64 and watertight, the binary layouts and
+/// trees too deep for a stack of 4 KiB go through AnyLayout. Any number of threads may call it at a
+/// time. Layout and triangles must outlive it.
 class SingleRays {
   public:
     /// As AnyLayout::rays: `triangles` are those of this very layout. An unknown kernel throws

@@ -50,7 +50,7 @@ HWY_INLINE std::uint32_t overlapping(const SeenBox& one, const Centre& centre,
                                      std::uint32_t count, float most, float* gaps) {
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
-        const F8 gap = greatest_gap(one, Between(one, centre, i), axis, half, i);
+        const F8 gap = greatest_gap(one, CentreOffsets(one, centre, i), axis, half, i);
         if constexpr (with_gaps)
             hn::StoreU(gap, d8, gaps + i);
         std::uint8_t part[8] = {};

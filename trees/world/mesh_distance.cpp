@@ -195,13 +195,13 @@ template <bool counted, bool plain> class Search {
         std::uint32_t bits = 0;
         const F8 wanted = hn::Set(d8, nearest_.wanted_f32());
         for (std::size_t i = 0; i < 8; i += hn::Lanes(d8)) {
-            const Between between(one, centre, i);
+            const CentreOffsets offsets(one, centre, i);
             const F8 bound =
-                hn::Max(hn::Sub(distance_bound(one, between, axis, half, i), hn::Set(d8, error)),
+                hn::Max(hn::Sub(distance_bound(one, offsets, axis, half, i), hn::Set(d8, error)),
                         hn::Zero(d8));
             hn::StoreU(bound, d8, bounds + i);
             if constexpr (with_keys)
-                hn::StoreU(between.squared(), d8, keys + i);
+                hn::StoreU(offsets.squared(), d8, keys + i);
             std::uint8_t part[8] = {};
             hn::StoreMaskBits(d8, hn::Lt(bound, wanted), part);
             bits |= static_cast<std::uint32_t>(part[0]) << i;

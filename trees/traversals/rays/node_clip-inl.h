@@ -131,7 +131,12 @@ HWY_INLINE void push_sorted(const Node& node, std::uint32_t bits, const float* e
     }
 }
 
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+/// Whether registers hold eight entries and sort them.
+#ifndef BOXWOOD_SORTS_EIGHT
+#define BOXWOOD_SORTS_EIGHT (HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2)
+#endif
+
+#if BOXWOOD_SORTS_EIGHT
 /// The entries (>= 0) of eight lanes as numbers that are all different: rounded down to multiples
 /// of eight ulp, with the lane below.
 template <class V> HWY_INLINE auto keys_of(V entry) {
@@ -140,14 +145,14 @@ template <class V> HWY_INLINE auto keys_of(V entry) {
     return hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
 }
 
-/// In every lane the least key of the lanes that are hit, of which there is one at least.
-template <class V, class M> HWY_INLINE V least_key(V keys, M hit) {
+/// In every lane the smallest key of the lanes that are hit, of which there is one.
+template <class V, class M> HWY_INLINE V min_key(V keys, M hit) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
-    V least = hn::IfThenElse(hit, keys, hn::Set(du, ~std::uint32_t{0}));
-    least = hn::Min(least, hn::ConcatLowerUpper(du, least, least));
-    least = hn::Min(least, hn::Shuffle1032(least));
-    return hn::Min(least, hn::Shuffle2301(least));
+    V key = hn::IfThenElse(hit, keys, hn::Set(du, ~std::uint32_t{0}));
+    key = hn::Min(key, hn::ConcatLowerUpper(du, key, key));
+    key = hn::Min(key, hn::Shuffle1032(key));
+    return hn::Min(key, hn::Shuffle2301(key));
 }
 
 /// The greatest first: sorts four and four, then merges them. All steps but one stay within four
@@ -189,9 +194,7 @@ HWY_INLINE void push_sorted_eight(const std::uint32_t* refs, V keys, WaitingNode
 #endif
 
 /// Whether eight entries stay in one register.
-template <class Node>
-inline constexpr bool in_register =
-    HWY_TARGET != HWY_SCALAR&& HWY_TARGET <= HWY_AVX2&& Node::width == 8;
+template <class Node> inline constexpr bool in_register = BOXWOOD_SORTS_EIGHT&& Node::width == 8;
 
 } // namespace boxwood::detail::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

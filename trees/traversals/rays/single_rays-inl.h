@@ -110,16 +110,15 @@ template <class Node, RayKernel K, RayMode mode> class RayAlone {
         const std::uint32_t others = bits & (bits - 1);
         if (others == 0)
             return node.ref[first];
-#if HWY_TARGET != HWY_SCALAR && HWY_TARGET <= HWY_AVX2
+#if BOXWOOD_SORTS_EIGHT
         if constexpr (in_register<Node>) {
             namespace hn = hwy::HWY_NAMESPACE;
             const hn::Rebind<std::uint32_t, D> du;
             const auto is_hit = hn::RebindMask(du, hit);
-            const auto keys = keys_of(entry), near = least_key(keys, is_hit);
-            const std::uint32_t ref = node.ref[hn::GetLane(near) & 7];
-            push_sorted_eight(
-                node.ref, hn::IfThenElseZero(hn::AndNot(hn::Eq(keys, near), is_hit), keys), top_);
-            top_ += std::popcount(others);
+            const auto keys = keys_of(entry);
+            const std::uint32_t ref = node.ref[hn::GetLane(min_key(keys, is_hit)) & 7];
+            push_sorted_eight(node.ref, hn::IfThenElseZero(is_hit, keys), top_);
+            top_ += std::popcount(others); // the nearest stays above the top
             fetch(top_[-1].ref);
             return ref;
         }

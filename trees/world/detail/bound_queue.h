@@ -33,9 +33,10 @@ class BoundQueue {
     std::size_t size() const { return size_; }
     bool has_room_for(std::size_t n) const { return size_ + n <= capacity; }
 
-    /// The bound must not be below 0, and there must be room.
+    /// The bound must be finite and not below 0, and there must be room.
     void push(const NearEntry& entry) {
         const float at = std::min(entry.bound * per_bound_, static_cast<float>(n_buckets - 1));
+        // To a signed integer, as to an unsigned one of 64 bits takes a branch.
         const auto bucket = static_cast<std::uint32_t>(static_cast<std::int32_t>(at));
         const std::uint16_t place = free_;
         free_ = below_[place];

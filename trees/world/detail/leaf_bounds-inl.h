@@ -151,8 +151,8 @@ class LeafPair {
     const MovedLeaf& moved() const { return moved_; }
 
     /// Bounds of the distances of triangle i of A and all of B: by their boxes, along the way
-    /// between their middles, and along the normals of both. Bits of those that are near enough,
-    /// whose bounds alone are written.
+    /// between their middles, and along the normals of both. Bits of those that are near enough;
+    /// the bounds of others may be left unwritten.
     HWY_INLINE std::uint32_t bound_triangles(std::size_t i, float wanted_distance,
                                              float* bounds) const {
         std::uint32_t bits = 0;

@@ -10,6 +10,8 @@
 
 #include "trees/world/detail/pair_frame.h"
 
+#include <limits>
+
 HWY_BEFORE_NAMESPACE();
 namespace boxwood::detail::HWY_NAMESPACE {
 
@@ -62,25 +64,25 @@ HWY_INLINE void see_lanes(const ObbBlock& block, const PairFrame& frame, const V
 }
 
 /// From the centre of one box to those of the lanes [i, i + Lanes(d8)) of eight others.
-struct Between {
+struct CentreOffsets {
     F8 t[3];
 
     template <class Centre>
-    HWY_INLINE Between(const SeenBox& one, const Centre& centre, std::size_t i) {
+    HWY_INLINE CentreOffsets(const SeenBox& one, const Centre& centre, std::size_t i) {
         for (std::size_t k = 0; k < 3; ++k)
             t[k] = hn::Sub(hn::Load(d8, centre[k] + i), hn::Set(d8, one.centre[k]));
     }
     HWY_INLINE F8 squared() const { return dot3(t[0], t[1], t[2], t[0], t[1], t[2]); }
 };
 
-/// How one box lies to the lanes of eight others along six axes: of_one(k, apart, sum) for its own,
-/// then of_lane(k, apart, sum) for theirs; the distances of the centres and the sums of the half
-/// lengths. Taken one by one, since sixteen registers do not hold all.
+/// How one box lies to the lanes of eight others: of_one(k, apart, sum) along each of its own three
+/// axes, then of_lane(k, apart, sum) along theirs; how far the centres are apart along it, and the
+/// sum of the half lengths. Axis by axis, since sixteen registers do not hold all.
 template <class OfOne, class OfLane>
-HWY_INLINE void along_six_axes(const SeenBox& one, const Between& between,
+HWY_INLINE void along_six_axes(const SeenBox& one, const CentreOffsets& offsets,
                                const float (&axis)[3][3][8], const float (&half)[3][8],
                                std::size_t i, const OfOne& of_one, const OfLane& of_lane) {
-    const F8(&t)[3] = between.t;
+    const F8(&t)[3] = offsets.t;
     F8 sum_of_lane[3];
     for (std::size_t k = 0; k < 3; ++k)
         sum_of_lane[k] = hn::Load(d8, half[k] + i);
@@ -106,26 +108,26 @@ HWY_INLINE void along_six_axes(const SeenBox& one, const Between& between,
 }
 
 /// The greatest gap along an axis; below 0 where they overlap along all.
-HWY_INLINE F8 greatest_gap(const SeenBox& one, const Between& between, const float (&axis)[3][3][8],
-                           const float (&half)[3][8], std::size_t i) {
+HWY_INLINE F8 greatest_gap(const SeenBox& one, const CentreOffsets& offsets,
+                           const float (&axis)[3][3][8], const float (&half)[3][8], std::size_t i) {
     F8 gap = hn::Set(d8, -std::numeric_limits<float>::infinity());
     const auto take = [&](std::size_t, F8 apart, F8 sum)
                           HWY_ATTR { gap = hn::Max(gap, hn::Sub(apart, sum)); };
-    along_six_axes(one, between, axis, half, i, take, take);
+    along_six_axes(one, offsets, axis, half, i, take, take);
     return gap;
 }
 
 /// A bound of the distance from below, but for the frame's error: in the one's frame, in the
 /// lane's, and along the line of centres.
-HWY_INLINE F8 distance_bound(const SeenBox& one, const Between& between,
+HWY_INLINE F8 distance_bound(const SeenBox& one, const CentreOffsets& offsets,
                              const float (&axis)[3][3][8], const float (&half)[3][8],
                              std::size_t i) {
     const F8 zero = hn::Zero(d8);
     F8 squared = zero, squared_of_lane = zero;
-    const F8 tt = between.squared();
+    const F8 tt = offsets.squared();
     F8 left = tt;
     along_six_axes(
-        one, between, axis, half, i,
+        one, offsets, axis, half, i,
         [&](std::size_t k, F8 apart, F8 sum) HWY_ATTR {
             const F8 gap = hn::Max(hn::Sub(apart, sum), zero);
             squared = hn::MulAdd(gap, gap, squared);
