@@ -288,6 +288,22 @@ TEST_F(RoundTest, ACrashedCellIsOutAndSaysWhy) {
     EXPECT_TRUE(run_round(plan, p, 0, report()).samples.empty());
 }
 
+TEST_F(RoundTest, AQueryOfASecondIsNotRunOnceMoreToWarmUp) {
+    add("quick", Fault::none);
+    add("slow", Fault::none);
+    results::Results p = prepared();
+    p.texts["calibration"] = to_text({{"quick", {1, 1, 1e5, 0.9e9}}, {"slow", {1, 1, 1e5, 1.1e9}}});
+    queries.clear();
+    const results::Results round = run_round(plan, p, 0, report());
+    std::map<std::string, int> timed;
+    for (const results::Sample& s : round.samples)
+        timed[p.cells[s.cell_id].name] += s.phase == results::Phase::query;
+    EXPECT_GT(timed["quick"], 0);
+    EXPECT_GT(timed["slow"], 0);
+    EXPECT_EQ(queries["quick"], 2 * timed["quick"]);
+    EXPECT_EQ(queries["slow"], timed["slow"]);
+}
+
 TEST_F(RoundTest, WhatAContenderThrowsInARoundComesOut) {
     add("a", Fault::none);
     const results::Results p = prepared();

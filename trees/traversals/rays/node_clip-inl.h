@@ -145,7 +145,7 @@ template <class V> HWY_INLINE auto keys_of(V entry) {
     return hn::Or(hn::AndNot(hn::Set(du, 7u), hn::BitCast(du, hn::Abs(entry))), hn::Iota(du, 0));
 }
 
-/// In every lane the smallest key of the lanes that are hit, of which there is one.
+/// In every lane the smallest key of the lanes that are hit, of which there is at least one.
 template <class V, class M> HWY_INLINE V min_key(V keys, M hit) {
     namespace hn = hwy::HWY_NAMESPACE;
     const hn::CappedTag<std::uint32_t, 8> du;
