@@ -37,9 +37,8 @@ std::uint64_t iterations_for(double target_ns, double ns) {
 }
 
 double round_ns(const Calibration& c) {
-    const std::uint64_t warm_up = is_query_warmed_up(c.query_ns) ? 1 : 0;
     return c.build_ns * static_cast<double>(c.build_iterations + 1) +
-           c.query_ns * static_cast<double>(c.query_iterations + warm_up);
+           c.query_ns * static_cast<double>(c.query_iterations + 1);
 }
 
 std::string to_text(const Calibrations& calibrations) {

@@ -25,13 +25,8 @@ using Calibrations = std::map<std::string, Calibration, std::less<>>;
 /// 10^7 times.
 std::uint64_t iterations_for(double target_ns, double ns);
 
-/// Whether a query of `ns` runs once before it is timed. What it finds cold, caches and the pages
-/// of its answers, takes milliseconds: one of a second or more is its own warm-up. Builds are
-/// always warmed up, as new memory costs the more the longer they take.
-constexpr bool is_query_warmed_up(double ns) { return ns < 1e9; }
-
-/// Expected time of the loops of a cell in one round: each phase once to warm up, but for a query
-/// that is not, and then as calibrated.
+/// Expected time of the loops of a cell in one round: each phase once to warm up and then as
+/// calibrated.
 double round_ns(const Calibration& calibration);
 /// Of the whole cell, seconds.
 double cell_s(const PlannedCell& cell, const Calibration& calibration);

@@ -24,10 +24,6 @@ TEST(Calibration, RepeatsUntilTheTargetIsReached) {
 }
 
 TEST(Calibration, ARoundWarmsUpOnce) { EXPECT_EQ(round_ns({2, 3, 10, 100}), 3 * 10 + 4 * 100); }
-TEST(Calibration, AQueryOfSecondsIsItsOwnWarmUpABuildIsNot) {
-    EXPECT_EQ(round_ns({2, 1, 10, 2e9}), 3 * 10 + 2e9);
-    EXPECT_EQ(round_ns({1, 3, 1e9, 100}), 2e9 + 4 * 100);
-}
 
 TEST(Calibration, TextRoundTrips) {
     const Calibrations calibrations{{"a/b", {1, 10'000'000, 0.1, 1.0 / 3}}, {"c", {7, 1, 1e12, 0}}};

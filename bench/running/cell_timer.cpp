@@ -74,8 +74,7 @@ void CellTimer::query(benchmark::State& state, const Timing& timing) {
     start_sample(timing, Phase::query);
     answers_ = task.make_answers();
     answers_->reserve(timing.answers);
-    if (is_query_warmed_up(timing.calibration.query_ns) || is_device(timing.cell->executor))
-        warm(timing, [&] { contender_->query(*answers_); });
+    warm(timing, [&] { contender_->query(*answers_); });
     time(state, samples.back(), [&] { contender_->query(*answers_); });
     contender_->fetch(*answers_);
     if (task.hash(*answers_) != timing.checked_hash)

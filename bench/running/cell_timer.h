@@ -41,8 +41,7 @@ class CellTimer {
 
     /// First a build that is not timed, then as calibrated.
     void build(benchmark::State& state, const Timing& timing);
-    /// After build, or alone for a task that has nothing to build. First one that is not timed, if
-    /// it is to be warmed up.
+    /// After build, or alone for a task that has nothing to build.
     void query(benchmark::State& state, const Timing& timing);
     /// After build: passes through all frames, one untimed with every answer looked at, the last of
     /// the others looked at afterwards. Their times are our own: google-benchmark would add up
