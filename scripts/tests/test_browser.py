@@ -24,7 +24,7 @@ document.getElementById("frame").onload = (event) => {
   for (const panel of page.querySelectorAll(".panel")) {
     const svg = panel.querySelector("svg"), scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
     // The box around a slanted text says little.
-    const upright = (text) => /^((?!rotate).)*$|rotate\(-?(90|270)/.test(text.getAttribute("transform") || "");
+    const upright = (text) => /^((?!rotate).)*$|rotate\\(-?(90|270)/.test(text.getAttribute("transform") || "");
     const texts = [...panel.querySelectorAll("text")].filter(upright).map((text) => ({text, box: text.getBoundingClientRect()}));
     for (const {text} of texts) {
       found.texts += 1;
