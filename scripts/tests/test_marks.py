@@ -57,10 +57,10 @@ def test_the_best_of_ours_is_held_against_its_best_rival(tmp_path):
 
 
 def test_some_may_be_at_most_so_much(tmp_path):
-    at_most = 'work = "w"\nagainst = "a"\nhighest = 1.15\nsweep = "narrow"\ntasks = ["collide"]\nfamily = "errors"\nclass = "not certified"\n'
+    at_most = 'work = "w"\nagainst = "a"\nhighest = 1.15\nsweep = "narrow"\ntasks = ["collide"]\nfamily = "errors"\n'
 
     def rows(*gains):
-        return [row(cell(2 * i, "obb", 1, f"s{i}"), cell(2 * i + 1, "obb.plain", 1, f"s{i}"), gain, family="errors", contender_class="not certified")
+        return [row(cell(2 * i, "obb", 1, f"s{i}"), cell(2 * i + 1, "obb.plain", 1, f"s{i}"), gain, family="errors")
                 for i, gain in enumerate(gains)]
     assert shown(tmp_path, *rows(1.01, 1.04), text=at_most)[2:] == ["at most 1.15x", "2", "1.02x", "1.04x (0.936 to 1.14): s1", "yes"]
     assert shown(tmp_path, *rows(1.1, 1.0), text=at_most)[5:] == ["1.10x (0.990 to 1.21): s0", "open: the greatest"]
