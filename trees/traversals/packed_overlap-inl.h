@@ -87,6 +87,17 @@ HWY_INLINE std::size_t put(M hits, U many, const std::uint32_t* one, std::uint32
     return hn::CountTrue(du, mask);
 }
 
+/// The lanes of a block that hit, a register at a time.
+struct Hits {
+    M of[PackedBlock::width / lanes];
+
+    template <class Test> HWY_INLINE explicit Hits(const Test& test) {
+        for (std::size_t i = 0; i < PackedBlock::width; i += lanes)
+            of[i / lanes] = test(i);
+    }
+    HWY_INLINE M operator[](std::size_t i) const { return of[i / lanes]; }
+};
+
 /// Appends to `out` the lanes (numbered through the level: 16 block + lane) of the listed blocks
 /// that overlap the box.
 template <bool Counted>

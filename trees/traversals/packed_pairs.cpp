@@ -153,8 +153,9 @@ template <bool Self, bool Counted> class PackedTraversal {
         const Box box = b_.depth() == 2 ? b_.bounds() : b_.level(2)[c / w].lane(c % w);
         const OneBox one(box);
         std::size_t n = close_.n;
+        const Hits hits([&](std::size_t i) HWY_ATTR { return overlap_lanes(*above_, i, one); });
         for (std::size_t i = 0; i < w; i += lanes)
-            n += put(overlap_lanes(*above_, i, one), hn::Iota(du, static_cast<std::uint32_t>(i)),
+            n += put(hits[i], hn::Iota(du, static_cast<std::uint32_t>(i)),
                      &c, close_.a + n, close_.b + n);
         close_.n = n;
         if constexpr (Counted)
@@ -166,9 +167,10 @@ template <bool Self, bool Counted> class PackedTraversal {
     template <bool itself> void list_near(std::uint32_t c, std::uint32_t at) {
         const PackedBlock& block = b_.level(1)[c];
         std::size_t n = near_.n;
+        const Hits all([&](std::size_t i) HWY_ATTR { return overlap_lanes(block, i, *above_, at); });
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
-            M hits = overlap_lanes(block, i, *above_, at);
+            M hits = all[i];
             if constexpr (itself)
                 hits = hn::And(hits, hn::RebindMask(df, hn::Gt(lane, hn::Set(du, at))));
             const auto number = hn::Add(lane, hn::Set(du, static_cast<std::uint32_t>(c * w)));
@@ -228,10 +230,11 @@ template <bool Self, bool Counted> class PackedTraversal {
                                              const PackedBlock& above, std::size_t lane,
                                              std::uint32_t other, PackedColumns& list) {
         std::size_t n = list.n;
+        const Hits hits([&](std::size_t i) HWY_ATTR { return overlap_lanes(block, i, above, lane); });
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto slot = hn::Add(hn::Iota(du, static_cast<std::uint32_t>(i)),
                                       hn::Set(du, static_cast<std::uint32_t>(number * w)));
-            n += put(overlap_lanes(block, i, above, lane), slot, &other, list.a + n, list.b + n);
+            n += put(hits[i], slot, &other, list.a + n, list.b + n);
         }
         return n - std::exchange(list.n, n);
     }
@@ -249,8 +252,11 @@ template <bool Self, bool Counted> class PackedTraversal {
             std::size_t n = pairs_.size();
             for (const std::size_t end = std::min(list.n, j + pairs_.free() / w); j < end; ++j) {
                 const std::size_t slot = list.a[j], leaf = list.b[j];
+                const Hits hits([&](std::size_t i) HWY_ATTR {
+                    return overlap_lanes(level_many[leaf], i, level_one[slot / w], slot % w);
+                });
                 for (std::size_t i = 0; i < w; i += lanes)
-                    n += put(overlap_lanes(level_many[leaf], i, level_one[slot / w], slot % w),
+                    n += put(hits[i],
                              hn::Load(du, items_many + leaf * w + i), items_one + slot, many_to + n,
                              one_to + n);
             }
