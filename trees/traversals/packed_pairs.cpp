@@ -155,8 +155,8 @@ template <bool Self, bool Counted> class PackedTraversal {
         std::size_t n = close_.n;
         const Hits hits([&](std::size_t i) HWY_ATTR { return overlap_lanes(*above_, i, one); });
         for (std::size_t i = 0; i < w; i += lanes)
-            n += put(hits[i], hn::Iota(du, static_cast<std::uint32_t>(i)),
-                     &c, close_.a + n, close_.b + n);
+            n += put(hits[i], hn::Iota(du, static_cast<std::uint32_t>(i)), &c, close_.a + n,
+                     close_.b + n);
         close_.n = n;
         if constexpr (Counted)
             count_work(1, n);
@@ -167,7 +167,8 @@ template <bool Self, bool Counted> class PackedTraversal {
     template <bool itself> void list_near(std::uint32_t c, std::uint32_t at) {
         const PackedBlock& block = b_.level(1)[c];
         std::size_t n = near_.n;
-        const Hits all([&](std::size_t i) HWY_ATTR { return overlap_lanes(block, i, *above_, at); });
+        const Hits all([&](std::size_t i)
+                           HWY_ATTR { return overlap_lanes(block, i, *above_, at); });
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto lane = hn::Iota(du, static_cast<std::uint32_t>(i));
             M hits = all[i];
@@ -230,7 +231,8 @@ template <bool Self, bool Counted> class PackedTraversal {
                                              const PackedBlock& above, std::size_t lane,
                                              std::uint32_t other, PackedColumns& list) {
         std::size_t n = list.n;
-        const Hits hits([&](std::size_t i) HWY_ATTR { return overlap_lanes(block, i, above, lane); });
+        const Hits hits([&](std::size_t i)
+                            HWY_ATTR { return overlap_lanes(block, i, above, lane); });
         for (std::size_t i = 0; i < w; i += lanes) {
             const auto slot = hn::Add(hn::Iota(du, static_cast<std::uint32_t>(i)),
                                       hn::Set(du, static_cast<std::uint32_t>(number * w)));
@@ -256,9 +258,8 @@ template <bool Self, bool Counted> class PackedTraversal {
                     return overlap_lanes(level_many[leaf], i, level_one[slot / w], slot % w);
                 });
                 for (std::size_t i = 0; i < w; i += lanes)
-                    n += put(hits[i],
-                             hn::Load(du, items_many + leaf * w + i), items_one + slot, many_to + n,
-                             one_to + n);
+                    n += put(hits[i], hn::Load(du, items_many + leaf * w + i), items_one + slot,
+                             many_to + n, one_to + n);
             }
             pairs_.resize(n);
         }
