@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -134,18 +135,33 @@ class Rounds {
     std::mt19937_64 random_{1};
 };
 
+/// Of the first complete round, by the managers' names.
+using AnswersOf = std::map<std::string, std::vector<ReplayedCall>>;
+
+/// By bounds, where the truth is not known: each with the answers of the first of the report.
+void compare_bounds(const RecordedProgram& program, const std::vector<char>& checked,
+                    const AnswersOf& answers, ReplayReport& report) {
+    const auto first = report.outcomes.begin();
+    for (auto outcome = first; outcome != report.outcomes.end() && !outcome->has_shapes;
+         ++outcome) {
+        const auto base = answers.find(first->name), own = answers.find(outcome->name);
+        if (base == answers.end() || own == answers.end())
+            return; // no round is complete
+        for (std::size_t i = 0; i < program.calls.size(); ++i)
+            if (is_query(program.calls[i].what) && !checked[i] &&
+                !is_right(program.calls[i], own->second[i], base->second[i]) &&
+                ++outcome->differ == 1)
+                outcome->first_differs = i;
+    }
+}
+
 /// Each with the truth, and where it is not known with the answers of the first of the report that
 /// has shapes.
-void judge_shapes(const RecordedProgram& program, const ShapeTruth& truth,
-                  const std::vector<std::pair<std::string, std::vector<ReplayedCall>>>& answers,
+void judge_shapes(const RecordedProgram& program, const ShapeTruth& truth, const AnswersOf& answers,
                   ReplayReport& report) {
-    const auto of = [&](const ReplayOutcome& outcome) {
-        return std::ranges::find(answers, outcome.name,
-                                 &std::pair<std::string, std::vector<ReplayedCall>>::first);
-    };
     const auto first = std::ranges::find_if(report.outcomes, &ReplayOutcome::has_shapes);
     for (auto outcome = first; outcome != report.outcomes.end(); ++outcome) {
-        const auto base = of(*first), own = of(*outcome);
+        const auto base = answers.find(first->name), own = answers.find(outcome->name);
         if (base == answers.end() || own == answers.end())
             return; // no round is complete
         for (std::size_t i = 0; i < program.calls.size(); ++i) {
@@ -188,7 +204,7 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
             call.shown < truth[i].shown && ++report.n_missed == 1)
             report.first_missed = i;
     }
-    std::vector<std::pair<std::string, std::vector<ReplayedCall>>> by_shapes;
+    AnswersOf answers;
     Rounds all(program, entries, report);
     const bool has_shapes = std::ranges::any_of(report.outcomes, &ReplayOutcome::has_shapes);
     const ShapeTruth shapes(program, has_shapes ? max_tests : 0, [&] {
@@ -198,11 +214,10 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
     report.n_shapes_too_dear = shapes.n_too_dear();
     for (unsigned round = 0; round < rounds; ++round) {
         const auto check = [&](ReplayOutcome& outcome, const std::vector<ReplayedCall>& calls) {
-            if (round == 0 && outcome.has_shapes) {
-                by_shapes.emplace_back(outcome.name, calls);
+            if (round > 0)
                 return;
-            }
-            for (std::size_t i = 0; i < calls.size() && round == 0; ++i)
+            answers[outcome.name] = calls;
+            for (std::size_t i = 0; i < calls.size() && !outcome.has_shapes; ++i)
                 if (checked[i] && !is_right(program.calls[i], calls[i], truth[i]) &&
                     ++outcome.wrong == 1)
                     outcome.first_wrong = i;
@@ -214,7 +229,8 @@ ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntr
     std::ranges::stable_sort(report.outcomes, {}, [](const ReplayOutcome& outcome) {
         return std::pair(outcome.has_shapes, !outcome.is_ours);
     });
-    judge_shapes(program, shapes, by_shapes, report);
+    compare_bounds(program, checked, answers, report);
+    judge_shapes(program, shapes, answers, report);
     return report;
 }
 

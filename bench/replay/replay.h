@@ -58,7 +58,7 @@ struct ReplayOutcome {
     std::vector<std::vector<double>> per_ns; ///< by call of recording::Call, by round
     std::size_t wrong = 0, first_wrong = 0;  ///< of the queries that were checked
     std::string witness;                     ///< with shapes: of the first wrong one, in words
-    /// With shapes, of the others: that are not as those of the first of the report.
+    /// Of the queries that were not: that are not as those of the report's first of such.
     std::size_t differ = 0, first_differs = 0;
 };
 
@@ -72,7 +72,8 @@ struct ReplayReport {
 
 /// Runs a program with every manager of the entries, `rounds` times in turns, in another order
 /// each round. Answers are held against the entry that is the truth, query by query, until it has
-/// tested `max_tests` pairs; with shapes against a ShapeTruth. `goes_on` gets what is done next;
+/// tested `max_tests` pairs; with shapes against a ShapeTruth; beyond, against those of the first
+/// by bounds, or with shapes. `goes_on` gets what is done next;
 /// where it says false the complete rounds are reported.
 ReplayReport replay(const RecordedProgram& program, const std::vector<ReplayEntry>& entries,
                     unsigned rounds, double max_tests,

@@ -229,7 +229,7 @@ template <class Api> class Replayer final : public Replay {
     std::vector<std::unique_ptr<Body>> bodies_;
     CallsOf<Api> to_manager_;
     std::unique_ptr<Manager> manager_, other_;
-    Noted noted_; ///< kept, so that no query but the first waits for memory
+    Noted noted_; ///< kept, so that it grows in the first round alone
 };
 
 } // namespace boxwood::bench
