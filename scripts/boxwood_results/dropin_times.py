@@ -7,7 +7,7 @@ import statistics
 from dataclasses import dataclass
 from pathlib import Path
 
-from .checkout import ENV
+from .checkout import environment_of
 from .python_times import median_interval, open_mark
 from boxwood.results.reader import BadFile
 from boxwood.results.words import interval_text, time_text
@@ -97,7 +97,7 @@ class DropinTimes:
 def read(path):
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
-        times = DropinTimes(int(found["rounds"]), [Run(**run) for run in found["runs"]], {key: found["env"][key] for key in ENV})
+        times = DropinTimes(int(found["rounds"]), [Run(**run) for run in found["runs"]], environment_of(found["env"]))
         if not times.runs:
             raise ValueError("no program")
         for run in times.runs:
@@ -123,7 +123,8 @@ def over_text(over, what=""):
 
 def table(times):
     """[header, row, ...] of texts: of bounds."""
-    rows = [["bodies", "that move in a frame", "boxwood::FclBroadPhase", "FCL's fastest / it", "boxwood::CoalBroadPhase", "Coal's fastest / it"]]
+    rows = [["bodies", "that move in a frame", "boxwood::FclBroadPhase", "FCL's fastest over ours", "boxwood::CoalBroadPhase",
+             "Coal's fastest over ours", "queries checked"]]
     for run in times.runs:
         if not run.triangles:
             fastest = run.fastest()
@@ -131,6 +132,7 @@ def table(times):
             for library, name in OURS.items():
                 manager, over = fastest.get(library, ("", None))
                 rows[-1] += [times_text(run, name), over_text(over, manager) if over else ""]
+            rows[-1].append(f"{run.checked:,} of {run.queries:,}")
     return rows
 
 
@@ -153,7 +155,7 @@ def with_shapes_text(run, library):
 def worlds_table(times):
     """[header, row, ...] of texts: of bodies that are meshes."""
     rows = [["bodies", "triangles of each", "that move in a frame", "distances in a frame", "answers checked", "boxwood::World",
-             "FCL's fastest / it", "Coal's fastest / it", "FclBroadPhase with FCL's shapes / it", "CoalBroadPhase with Coal's shapes / it"]]
+             "FCL's fastest over ours", "Coal's fastest over ours", "FclBroadPhase with FCL's shapes over ours", "CoalBroadPhase with Coal's shapes over ours"]]
     for run in times.runs:
         if run.triangles:
             rows.append([f"{run.bodies:,}", f"{run.triangles:,}", moved_text(run), f"{run.distances:,}", f"{run.checked:,} of {run.queries:,}",

@@ -1,6 +1,7 @@
 """Several result files over time: what the newest finds, in all files of one machine. Machines are never pooled."""
 
 from . import labels, style
+from .checkout import machine as machine_of
 from .metrics import METRICS
 from .picture import Picture, cell_text
 from .run import TOTAL
@@ -25,11 +26,11 @@ def commit(run):
 
 
 def of_machines(runs):
-    """{(host, processor): its files by time}."""
+    """{(host, processor, its instruction sets): its files by time}."""
     machines = {}
     for run in sorted(runs, key=created):
         for row in run.source["env"]:
-            machines.setdefault((row["host"], row["cpu"]), []).append(run)
+            machines.setdefault(machine_of(row), []).append(run)
     return {machine: of for machine, of in machines.items() if len(of) > 1}
 
 
@@ -75,7 +76,7 @@ def draw_machine(number, machine, runs):
         style.title(ax, str(pair[0].job))
         ax.set_ylabel(METRICS["build"].axis if pair[0].task.is_build else f"time of {pair[0].task.total_title}")
         labels.at_line_ends(ax, ends)
-    host, processor = machine
+    host, processor, _ = machine
     return Picture(f"history_{number}", figure, f"{host}, {processor}",
                    f"Times of {len(pairs)} headlines in {len(runs)} files of {host} over time.", COLUMNS, rows)
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import dropin_times, marks, picture, published_tables, python_times, recomputed, registry
+from .checkout import machine as machine_of
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
 from .run import read
@@ -186,15 +187,18 @@ PYTHON_COMMAND = f"scripts/python_bench --out {PYTHON}"
 PYTHON_ROUNDS = 9  # at least
 
 
+def beside_text(env):
+    return "".join(f", {package} {version}" for package, version in env["versions"].items())
+
+
 def python_block(root, up):
     """What a call from Python costs, and what others take: of scripts/python_bench, which no sweep holds."""
     if not (root / PYTHON).exists():
         return f"*The module `boxwood`: not published yet. `{PYTHON_COMMAND}` measures it.*\n"
     times = python_times.read(root / PYTHON)
     env = times.env
-    beside = ", ".join(f"{package} {version}" for package, version in env["versions"].items())
     return (f"{markdown(python_times.table(times))}\n\n*{env['created_utc'][:10]}, {len(times.rows[0].ours)} rounds, {env['cpu']}, {env['ncpu']} cores, "
-            f"commit {env['git_commit'][:8]}, {beside}; [`{PYTHON.name}`]({up}{PYTHON}). Again: "
+            f"commit {env['git_commit'][:8]}{beside_text(env)}; [`{PYTHON.name}`]({up}{PYTHON}). Again: "
             f"`{PYTHON_COMMAND} --rounds {len(times.rows[0].ours)}`.*\n")
 
 
@@ -213,7 +217,7 @@ def dropin_block(root, up, table=dropin_times.table):
     bodies, meshes = (" ".join(map(str, dict.fromkeys(run.bodies for run in times.runs if bool(run.triangles) == are_meshes)))
                       for are_meshes in (False, True))
     return (f"{markdown(table(times))}\n\n*{env['created_utc'][:10]}, {times.rounds} rounds in turns within one process, {env['cpu']}, {env['ncpu']} cores, "
-            f"commit {env['git_commit'][:8]}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies} "
+            f"commit {env['git_commit'][:8]}{beside_text(env)}; [`{DROPIN.name}`]({up}{DROPIN}). Again: `{DROPIN_COMMAND} --rounds {times.rounds} --bodies {bodies} "
             f"--meshes {meshes}".rstrip() + "`.*\n")
 
 
@@ -274,7 +278,7 @@ def faults(file, run, on_device=False):
     wrong = recomputed.differences(run.source)
     if wrong:
         found.append(f"{len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
-    if len({(row["host"], row["cpu"], row["gpu"], row["git_commit"]) for row in run.source["env"]}) > 1:
+    if len({(*machine_of(row), row["gpu"], row["git_commit"]) for row in run.source["env"]}) > 1:
         found.append("of more than one machine or commit")
     if on_device and not cell_text(run.source["env"][0]["gpu"]):
         found.append("measured without a GPU")
@@ -300,6 +304,15 @@ def faults(file, run, on_device=False):
     return [f"{file}: {fault}" for fault in found]
 
 
+def is_since(root, commit, earlier):
+    """Whether a commit holds an earlier one; without git, or where it knows them not, nothing is against it."""
+    return git(root, "merge-base", "--is-ancestor", earlier, commit).returncode != 1
+
+
+def git(root, *arguments):
+    return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True, check=False)
+
+
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
     found, machines, commits = [], set(), set()
@@ -316,7 +329,7 @@ def problems(root):
         run = read(file)
         on_device = any(one.on_device for one in ALL if one.sweep == sweep)
         if not on_device:
-            machines |= {(row["host"], row["cpu"]) for row in run.source["env"]}
+            machines |= {machine_of(row) for row in run.source["env"]}
             commits |= {row["git_commit"] for row in run.source["env"]}
         found += faults(file, run, on_device)
         if scenes_of(run) != frozen:
@@ -332,14 +345,18 @@ def problems(root):
     for file, reader in ((PYTHON, python_times.read), (DROPIN, dropin_times.read)):
         if (root / file).exists():
             env = reader(root / file).env
-            machines.add((env["host"], env["cpu"]))
+            machines.add(machine_of(env))
             if file != DROPIN:  # whose lines say their own
                 commits.add(env["git_commit"])
             if env["git_dirty"]:
                 found.append(f"{root / file}: measured with changes that are in no commit")
+    machines = {one for one in machines if one[-1] or all(one[:-1] != other[:-1] for other in machines - {one})}
     for what, values in (("one machine", machines), ("one commit", commits)):
         if len(values) > 1:
             found.append(f"results/published: files of more than {what}: {', '.join(map(str, sorted(values)))}")
+    if (root / DROPIN).exists():
+        found += [f"{root / DROPIN}: measured before commit {commit[:8]} of the sweeps" for commit in commits
+                  if not is_since(root, dropin_times.read(root / DROPIN).env["git_commit"], commit)]
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
     found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES
@@ -355,8 +372,8 @@ def changed_since(root):
     commits = {row["git_commit"] for one in ALL if one.file(root).exists() for row in read(one.file(root)).source["env"]}
     found = []
     for commit in sorted(commits):
-        done = subprocess.run(["git", "-C", root, "diff", "--name-only", commit, "--", *TIMED], capture_output=True, text=True, check=False)
-        names = [name for name in done.stdout.split() if not re.search(r"_test\.c|/testing/|\.md$", name)]
+        changed = git(root, "diff", "--name-only", commit, "--", *TIMED).stdout.split()
+        names = [name for name in changed if not re.search(r"_test\.c|/testing/|\.md$", name)]
         if names:
             found.append((commit, names))
     return found

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from math import comb
 from pathlib import Path
 
-from .checkout import ENV
+from .checkout import environment_of
 from boxwood.results.reader import BadFile
 from boxwood.results.words import interval_text, ratio_text, time_text
 
@@ -77,7 +77,7 @@ class PythonTimes:
 def read(path):
     try:
         found = json.loads(Path(path).read_text(encoding="utf-8"))
-        times = PythonTimes([Row(**row) for row in found["rows"]], {key: found["env"][key] for key in ENV})
+        times = PythonTimes([Row(**row) for row in found["rows"]], environment_of(found["env"]))
         if not times.rows:
             raise ValueError("no question")
         for row in times.rows:

@@ -1,10 +1,14 @@
 """Result files made once for all tests."""
 
+import re
+import shutil
 import subprocess
 
 import pytest
 import synthetic
 from synthetic import SCRIPTS
+
+from boxwood_results import published
 
 
 @pytest.fixture(scope="session")
@@ -34,3 +38,14 @@ def script():
         )
 
     return run
+
+
+@pytest.fixture
+def root(tmp_path):
+    """A repository of which README is all that was published."""
+    shutil.copytree(SCRIPTS.parent / "bench" / "configs", tmp_path / "bench" / "configs")
+    shutil.copytree(SCRIPTS.parent / "results" / "published", tmp_path / "results" / "published", ignore=shutil.ignore_patterns("*.[!t]*"))  # marks.toml
+    for page in published.PAGES:
+        text = re.sub(r"(<!-- published: \w+ -->\n).*?(<!-- /published)", r"\1\2", (SCRIPTS.parent / page).read_text(), flags=re.S)
+        (tmp_path / page).write_text(text)
+    return tmp_path

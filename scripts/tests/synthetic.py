@@ -22,7 +22,7 @@ WORD, NAME, TEXT = "S64", "S160", "S1024"
 U4, U8, F8 = "u4", "u8", "f8"
 COLUMNS = {
     "env": [("env_id", U4), ("env_hash", WORD), ("host", NAME), ("cpu", NAME), ("ncpu", U4), ("l1d_bytes", U8),
-            ("isa_used", WORD), ("compiler", NAME), ("git_commit", WORD), ("stream_triad_gbs_1", F8), ("stream_triad_gbs_all", F8),
+            ("isa_max", WORD), ("isa_used", WORD), ("compiler", NAME), ("git_commit", WORD), ("stream_triad_gbs_1", F8), ("stream_triad_gbs_all", F8),
             ("core_ghz", F8), ("seed", U8), ("gpu", NAME), ("gpu_sm", U4), ("gpu_memory_bytes", U8),
             ("gpu_clock_ghz", F8), ("gpu_driver", WORD), ("gpu_l2_bytes", U8)],
     "packages": [("env_id", U4), ("library", WORD), ("version", WORD), ("build", TEXT), ("present", U4)],
@@ -143,7 +143,7 @@ class Maker:
         self.ids = {}
         self.texts = {}
         self.rows["env"].append(dict(env_id=0, host="testhost", cpu="Test CPU & <Core> 9", ncpu=2, l1d_bytes=2**64 - 1,
-                                     compiler="gcc 12.2.0", isa_used="AVX2", git_commit="abc", stream_triad_gbs_1=12.5,
+                                     compiler="gcc 12.2.0", isa_max="AVX3", isa_used="AVX2", git_commit="abc", stream_triad_gbs_1=12.5,
                                      stream_triad_gbs_all=20, core_ghz=3, seed=1, gpu="Test Device 5000", gpu_sm=132,
                                      gpu_memory_bytes=80 << 30, gpu_clock_ghz=1.98, gpu_driver="13.0", gpu_l2_bytes=50 << 20))
         for library, version in (("embree", "3.13.5"), ("fcl", "0.7.0"), ("cgal", "5.5.1"), ("bullet", "")):
@@ -439,3 +439,10 @@ def small(rounds=1, twin=False):
         made.cell("uniform", 2000, "pairs", contender, PAIR_CONTENDERS[contender], 1,
                   twin=twin and contender == "binned_sah.wide8")
     return made
+
+
+def file_of(root, sweep, made, toml=None, **env):
+    """Writes what was made as the published file of a sweep below a root."""
+    made.rows["env"][0].update({"git_commit": "abcdef012345", **env})
+    made.texts["sweep_toml"] = (root / "bench" / "configs" / f"{sweep}.toml").read_text() if toml is None else toml
+    return made.write(root / "results" / "published" / f"{sweep}.h5")

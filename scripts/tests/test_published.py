@@ -2,16 +2,15 @@
 
 import math
 import re
-import shutil
 import subprocess
 from types import SimpleNamespace
 
 import h5py
 import pytest
 import synthetic
-from synthetic import SCRIPTS
+from synthetic import SCRIPTS, file_of
 
-from boxwood_results import dropin_times, published, published_tables, python_times, recomputed
+from boxwood_results import published, published_tables, recomputed
 from boxwood_results.findings import CALL
 from boxwood_results.run import Job
 from boxwood_results.selection import fullest
@@ -57,23 +56,6 @@ def test_what_is_measured_stands_between_markers():
     assert len(found) > 10 and not {path: ratios for path, ratios in found.items() if ratios}
 
 
-def file_of(root, sweep, made, toml=None, **env):
-    made.rows["env"][0].update(git_commit="abcdef012345", **env)
-    made.texts["sweep_toml"] = (root / "bench" / "configs" / f"{sweep}.toml").read_text() if toml is None else toml
-    return made.write(root / "results" / "published" / f"{sweep}.h5")
-
-
-@pytest.fixture
-def root(tmp_path):
-    """A repository of which README is all that was published."""
-    shutil.copytree(ROOT / "bench" / "configs", tmp_path / "bench" / "configs")
-    shutil.copytree(ROOT / "results" / "published", tmp_path / "results" / "published", ignore=shutil.ignore_patterns("*.[!t]*"))  # marks.toml
-    for page in published.PAGES:
-        text = re.sub(r"(<!-- published: \w+ -->\n).*?(<!-- /published)", r"\1\2", (ROOT / page).read_text(), flags=re.S)
-        (tmp_path / page).write_text(text)
-    return tmp_path
-
-
 def test_tables_and_pictures_come_from_the_files(root):
     file_of(root, "pairs", synthetic.full(wrong=False))
     file_of(root, "effects", synthetic.full(wrong=False))
@@ -97,83 +79,6 @@ def test_tables_and_pictures_come_from_the_files(root):
     published.write(root)
     (root / "scripts" / "pictures" / "pairs.png").unlink()
     assert any("not drawn from" in line for line in published.problems(root))
-
-
-def test_what_python_takes_is_shown_with_its_intervals(root):
-    rows = [python_times.Row("pairs of boxes", 1000, [200, 210, 190, 205, 195, 200, 200, 200, 200], [100] * 9,
-                             {"rtree": [400, 420, 380, 410, 390, 400, 400, 400, 900], "SciPy": [150, 300, 150, 300, 200, 200, 200, 200, 100]})]
-    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10:00:00",
-           "versions": {"python": "3.11", "rtree": "1.4"}}
-    python_times.PythonTimes(rows, env).write(root / published.PYTHON)
-    assert any("lacks questions or rounds" in line for line in published.problems(root))
-    rows += [python_times.Row(f"question {i}", 1000, [200] * 9, [100] * 9, {}) for i in range(13)]
-    python_times.PythonTimes(rows, env).write(root / published.PYTHON)
-    published.write(root)
-    text = (root / "README.md").read_text()
-    assert "| pairs of boxes | 1,000 | 200 ns | 100 ns, 100 % | rtree 2.00x (2.00 to 2.00), SciPy 1.00x (0.750 to 1.43) ? |" in text
-    assert "a CPU, 2 cores, commit abcdef01, python 3.11, rtree 1.4" in text and published.problems(root) == []
-    file_of(root, "effects", synthetic.full(wrong=False))
-    assert any("more than one machine" in line for line in published.problems(root))
-    broken = [python_times.Row("cut", 1000, [200] * 8, [100] * 9, {}), python_times.Row("silent", 1000, [200] * 9, [0] * 9, {})]
-    for row in broken:
-        python_times.PythonTimes([row], env).write(root / published.PYTHON)
-        with pytest.raises(published.BadFile, match=f"'{row.question}' has not a time above 0 of each round"):
-            published.problems(root)
-    for text in ("{}", '{"rows": [], "env": {}}', "not JSON"):
-        (root / published.PYTHON).write_text(text)
-        with pytest.raises(published.BadFile, match="no file of scripts/python_bench"):
-            published.problems(root)
-
-
-def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
-    def manager(name, ratio, wrong=0):
-        spread = [1.0] * 9 if ratio == 1 else [0.8, 0.9, 1, 1, 1, 1, 1, 1.1, 1.2]
-        return {"manager": name, "shapes": False, "wrong": wrong, "rounds_ns": [1e6 * ratio * factor for factor in spread],
-                "over_first": {"mid": ratio, "lo": 0.9 * ratio, "hi": 1.1 * ratio}}
-
-    named = {"boxwood.fcl_manager": 1, "fcl.slow": 9, "fcl.fast": 4, "fcl.liar": 2, "boxwood.coal_manager": 2, "coal.array": 2.1}
-    runs = [dropin_times.Run(1000, 0.01, 50, [manager(name, ratio, wrong=int(name == "fcl.liar")) for name, ratio in named.items()])]
-    env = {"host": "h", "cpu": "a CPU", "ncpu": 2, "git_commit": "abcdef012345", "git_dirty": 0, "created_utc": "2026-11-26T10", "versions": {}}
-    runs[0].managers[-2]["rounds_ns"].reverse()  # a round's times belong together
-    dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
-    published.write(root)
-    text = (root / "README.md").read_text()
-    assert "| 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | 1.05x (0.859 to 1.28) ? coal.array |" in text
-    assert "9 rounds in turns within one process, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
-    assert "dropin.json --rounds 9 --bodies 1000 --meshes`" in text
-
-    world = [manager("boxwood.world", 1), manager("boxwood.fcl_manager, FCL's shapes", 5), manager("boxwood.fcl_manager_f32, FCL's shapes", 4),
-             manager("fcl.tree, FCL's shapes", 8), manager("coal.tree, Coal's shapes", 6, wrong=1)]
-    runs.append(dropin_times.Run(1000, 1, 10, world, triangles=500, distances=20, queries=210, checked=200))
-    dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
-    published.write(root)
-    text = (root / TABLES).read_text()
-    assert ("| 1,000 | 500 | all | 20 | 200 of 210 | 1.00 ms for 10 frames | 8.00x (7.20 to 8.80) tree | 1 wrong | 4.00x (3.60 to 4.40) |  |"
-            ) in text
-    assert "dropin.json --rounds 9 --bodies 1000 --meshes 1000`" in text and published.problems(root) == []
-
-    world[-1].update(wrong=0, differ=3)
-    assert [runs[1].why_not([name]) for name in ("boxwood.world", "nobody", "coal.tree, Coal's shapes")] == ["", "", "3 unlike ours"]
-
-    def refused(why):
-        dropin_times.DropinTimes(9, runs, env).write(root / published.DROPIN)
-        with pytest.raises(published.BadFile, match=why):
-            published.problems(root)
-
-    runs[0].managers[2]["rounds_ns"] = [1.01 * ns for ns in runs[0].managers[2]["rounds_ns"]]
-    refused("fcl.fast: its ratio does not follow from its rounds")
-    runs[0].managers[1]["rounds_ns"].pop()
-    refused("fcl.slow has not a time above 0 of each of 9 rounds at least")
-    runs[0].managers[0]["wrong"] = 1
-    refused("boxwood.fcl_manager is wrong")
-    runs[:] = [dropin_times.Run(1000, 1, 10, world, triangles=500)]
-    refused("no answer was checked")
-
-
-@pytest.mark.parametrize("n, cut", [(1, 0), (5, 0), (6, 0), (8, 0), (9, 1), (11, 1), (12, 2), (30, 9)])
-def test_intervals_of_medians_are_those_of_the_sign_test(n, cut):
-    _, lo, hi = python_times.median_interval(range(n))
-    assert (lo, hi) == (cut, n - 1 - cut)
 
 
 def test_files_are_of_one_commit(root):
@@ -210,7 +115,7 @@ def test_a_file_in_which_ours_is_wrong_is_said(root):
 
 @pytest.mark.parametrize(
     "env, toml, problem",
-    [({"host": "another"}, None, "more than one machine"), ({"git_dirty": 1}, None, "in no commit"), ({"flags": "-O2 (peers -O1)"}, None, "hardly optimised"), ({}, "", "does not hold the sweep")])
+    [({"host": "another"}, None, "more than one machine"), ({"isa_max": "AVX2"}, None, "more than one machine"), ({"git_dirty": 1}, None, "in no commit"), ({"flags": "-O2 (peers -O1)"}, None, "hardly optimised"), ({}, "", "does not hold the sweep")])
 def test_what_does_not_fit_together_is_said(root, env, toml, problem):
     file_of(root, "effects", synthetic.full(wrong=False))
     made = synthetic.full(wrong=False)
