@@ -358,7 +358,7 @@ TEST_F(ResultFile, AWordThatIsNoneIsAnErrorThatNamesIt) {
 TEST_F(ResultFile, WhoChangesItBreaksTheSeal) {
     Results example = filled_example();
     for (Env& env : example.env)
-        env.cpu = "one";
+        env.cpu = env.isa_max = "one";
     write(file_, example);
     EXPECT_TRUE(read(file_).is_sealed);
     set_attribute("schema_minor", 0); // nothing is different but that it was written to

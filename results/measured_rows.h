@@ -35,6 +35,11 @@ struct Env {
     std::uint32_t boost = no_id, smt = no_id; ///< 0 or 1
 };
 
+/// The processor's model and its widest instruction set: hosts may call two models by one name.
+inline std::string processor(const Env& env) {
+    return env.isa_max.empty() ? env.cpu : env.cpu + ", " + env.isa_max;
+}
+
 /// A library that the program was built with, or a peer that was looked for.
 struct Package {
     std::uint32_t env_id = 0;

@@ -136,11 +136,11 @@ void Merger::add_header(const Results& part) {
 void Merger::add_machines_and_cells(const Results& part) {
     env_ids_ = Renumbering("env");
     for (Env row : part.env) {
-        if (!all_.env.empty() && row.cpu != all_.env[0].cpu)
+        if (!all_.env.empty() && processor(row) != processor(all_.env[0]))
             throw std::runtime_error(fmt::format(
                 "cannot merge: {} was measured on '{}', those before it on '{}'; times of two "
                 "processor models are never pooled: keep a file for each",
-                name_, row.cpu, all_.env[0].cpu));
+                name_, processor(row), processor(all_.env[0])));
         const auto id = renumber(row.env_id, all_.env);
         env_ids_.set(id, env_.add(row.env_hash, row).first);
     }

@@ -151,6 +151,11 @@ TEST(Merge, TimesOfTwoProcessorModelsAreNeverPooled) {
               "processor models are never pooled: keep a file for each");
     b.env[0].cpu = "one"; // two machines of one model
     EXPECT_EQ(merge_error(std::array{a, b}, names), "");
+    b.env[0].isa_max = "AVX2"; // two models of one name
+    a.env[0].isa_max = "AVX3";
+    EXPECT_EQ(merge_error(std::array{a, b}, names),
+              "cannot merge: b.h5 was measured on 'one, AVX2', those before it on 'one, AVX3'; "
+              "times of two processor models are never pooled: keep a file for each");
 }
 
 TEST(Merge, MachinesStayApart) {

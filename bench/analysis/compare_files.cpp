@@ -191,7 +191,7 @@ Gate gate_of(const FileRow& row, const FileOptions& options, bool times_count) {
 std::set<std::string> cpus_of(const Results& results) {
     std::set<std::string> cpus;
     for (const auto& env : results.env)
-        cpus.insert(env.cpu);
+        cpus.insert(results::processor(env));
     return cpus;
 }
 

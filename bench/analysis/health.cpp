@@ -81,8 +81,10 @@ std::string trust_text(const Health& health, double lowest, std::ptrdiff_t busy)
     if (std::isnan(health.floor))
         return text + ": no cell was timed twice";
     const bool is_quiet = lowest <= noisy_floor && 2 * health.disturbed <= health.samples;
-    return text + (is_quiet ? ": quiet enough"
-                            : ": not quiet; what differs by less than its floor is left open");
+    return text + (!is_quiet ? ": not quiet; what differs by less than its floor is left open"
+                   : health.floor > noisy_floor
+                       ? ": quiet enough in part; what differs by less than its floor is left open"
+                       : ": quiet enough");
 }
 
 /// Names the first of our wrong answers, and the kernels that break a promise, the first ones at

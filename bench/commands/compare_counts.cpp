@@ -57,7 +57,7 @@ std::string counts_verdict(const CountComparison& comparison, const CountOptions
     }
     if (!comparison.is_sealed)
         parts.emplace_back(no_evidence);
-    if (with(Gate::open) > 0)
+    if (comparison.has_instructions && with(Gate::open) > 0)
         parts.push_back(fmt::format("instructions were counted by {} and by {}, which give other "
                                     "numbers for the same code",
                                     comparison.base_by, comparison.head_by));
@@ -65,6 +65,8 @@ std::string counts_verdict(const CountComparison& comparison, const CountOptions
         parts.push_back(fmt::format("{} of the base's cells, counters or answers have no "
                                     "counterpart",
                                     comparison.lost.size()));
+    if (!comparison.has_instructions)
+        parts.push_back("no instructions were counted in the base: boxwood sweep --count does");
     if (comparison.rows.empty())
         parts.push_back("no counter of ours is in both files");
     return fmt::format("CAN'T TELL: {}\n", fmt::join(parts, ", "));
@@ -77,8 +79,6 @@ std::string counts_text(const results::Results& base, const results::Results& he
                         const FileView& view) {
     std::string text =
         counts_verdict(comparison, options) + file_text("base", base) + file_text("head", head);
-    if (!comparison.has_instructions)
-        text += "no instructions were counted in the base: boxwood sweep --count does\n";
     for (const std::string& cell : comparison.newly_wrong)
         text += fmt::format("newly wrong: {}\n", cell);
     for (const Lost& lost : comparison.lost)

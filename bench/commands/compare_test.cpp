@@ -144,7 +144,10 @@ TEST(CompareCommand, OnAnotherProcessorTimesSayNothing) {
     EXPECT_THAT(text, StartsWith("CAN'T TELL: the processors differ, and so do times for that "
                                  "alone (--any-processor compares all the same); "));
     EXPECT_THAT(text, Not(HasSubstr("head is"))); // no table
-    auto renamed = timed(100);                    // a file that somebody changed
+    auto of_one_name = timed(150);                // a processor with other instruction sets
+    of_one_name.env[0].isa_max = "another";
+    EXPECT_EQ(exit_of(timed(100), of_one_name), exit_cannot_tell);
+    auto renamed = timed(100); // a file that somebody changed
     renamed.env[0].cpu = "another";
     EXPECT_EQ(exit_of(timed(100), renamed), exit_cannot_tell);
     FileOptions forced;

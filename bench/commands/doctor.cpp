@@ -142,8 +142,8 @@ std::string as_text(const Examination& r) {
     for (const Peer& peer : peers())
         text += fmt::format("  {} {} ({})\n", peer.name, peer.version, peer.build);
     for (const std::string_view name : absent_peers())
-        text += fmt::format("  {}: absent, its package was not found when boxwood was built "
-                            "(./scripts/setup installs it)\n",
+        text += fmt::format("  {}: absent, it was not found when boxwood was built "
+                            "(bench/peers/README.md says how to get it)\n",
                             name);
     text += fmt::format("\nThis program\n  boxwood {}, commit {}, {}, {}\n", version(),
                         git_commit(), compiler(), build_type());

@@ -131,8 +131,8 @@ Rows peer_rows() {
     }
     for (const std::string_view name : absent_peers())
         rows.push_back({std::string(name),
-                        "absent: its package was not found when boxwood was built "
-                        "(./scripts/setup installs it)",
+                        "absent: it was not found when boxwood was built "
+                        "(bench/peers/README.md says how to get it)",
                         {{"present", "false"}},
                         {}});
     return rows;

@@ -76,7 +76,7 @@ int status_of(pid_t child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-void say(const fs::path& file) {
+void say_what_is_in(const fs::path& file) {
     try {
         const RecordedProgram program = read_program(file);
         fmt::print(stderr, "{}: {} calls, {} objects; boxwood replay {}\n", file.string(),
@@ -108,7 +108,7 @@ int run(const RecordOptions& options) {
     const int status = status_of(child);
     const std::vector<fs::path> files = recordings(options.file);
     for (const fs::path& file : files)
-        say(file);
+        say_what_is_in(file);
     if (!files.empty() || status != exit_success)
         return status;
     fmt::print(

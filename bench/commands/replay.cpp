@@ -199,7 +199,11 @@ std::string as_text(const ReplayOptions& options, const RecordedProgram& program
             fmt::format("{} of {} queries were checked by testing all {}{}.\n", n, report.n_queries,
                         how, are_more ? " (--max-tests 1e12 checks more)" : "");
     };
-    checked(report.n_checked, "pairs of bounds", report.n_checked < report.n_queries);
+    checked(report.n_checked, "pairs of bounds", report.n_too_dear > 0);
+    if (report.n_of_chance)
+        text += fmt::format("{} are distances that the program ended: what they come to by bounds "
+                            "depends on the order of pairs, and is not checked.\n",
+                            report.n_of_chance);
     if (report.outcomes.back().has_shapes)
         checked(report.n_shapes_checked, "triangles of pairs that may touch, or be the nearest",
                 report.n_shapes_too_dear > 0);

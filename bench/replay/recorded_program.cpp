@@ -26,14 +26,18 @@ class Table {
     std::size_t size() const { return columns_[0].size(); }
     double number(std::size_t row, std::size_t column) const { return columns_[column][row]; }
     /// A whole number below `end`.
-    std::uint64_t integer(std::size_t row, std::size_t column, double end) const {
+    double whole(std::size_t row, std::size_t column, double end) const {
         const double value = number(row, column);
         if (!(value >= 0 && value < end && value == std::floor(value)))
             throw std::runtime_error(fmt::format(
                 "{}: row {} of {}/{} is {}, which should be a whole number below {}; the recording "
                 "is damaged: record again",
                 file_.string(), row, name_, names_[column], value, end));
-        return static_cast<std::uint64_t>(value);
+        return value;
+    }
+    /// The same, with an end of at most 2^64.
+    std::uint64_t integer(std::size_t row, std::size_t column, double end) const {
+        return static_cast<std::uint64_t>(whole(row, column, end));
     }
 
   private:
@@ -85,7 +89,7 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
     const Table requests(file, "requests", recording::requests);
     for (std::size_t row = 0; row < requests.size(); ++row)
         for (std::size_t i = 0; double& number : program.requests.emplace_back())
-            number = static_cast<double>(requests.integer(row, i++, 0x1p65));
+            number = requests.whole(row, i++, 0x1p65); // the greatest size_t is 2^64 as a double
     const Table counts(file, "request_counts", recording::request_counts);
     const auto n_calls = static_cast<double>(program.calls.size()),
                n_requests = static_cast<double>(program.requests.size());
@@ -93,7 +97,7 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
         program.request_counts.push_back(
             {static_cast<std::size_t>(counts.integer(row, 0, n_calls)),
              static_cast<std::size_t>(counts.integer(row, 1, n_requests)),
-             static_cast<double>(counts.integer(row, 2, 0x1p53)), counts.number(row, 3)});
+             counts.whole(row, 2, 0x1p53), counts.number(row, 3)});
 }
 
 } // namespace

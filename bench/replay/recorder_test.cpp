@@ -6,6 +6,7 @@
 #include "trees/adapters/fcl_recorder.h"
 #include "trees/adapters/recording_file.h"
 
+#include <fcl/broadphase/broadphase_bruteforce.h>
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -21,6 +22,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -211,6 +213,44 @@ TEST_F(Recorders, WriteDownQueriesOfShapes) {
     }
     EXPECT_TRUE(program.touch.contacts);
     EXPECT_EQ(program.touch.max_contacts, 3u);
+}
+
+TEST_F(Recorders, AllContactsAreAskedForByTheGreatestNumber) {
+    {
+        Recorder recorder(manager_, file_);
+        add_balls(recorder);
+        OfPair querying = [&](Object* a, Object* b) {
+            fcl::CollisionResultd touch;
+            constexpr auto all = std::numeric_limits<std::size_t>::max();
+            Recorder::collide(a, b, fcl::CollisionRequestd(all, true), touch);
+            return false;
+        };
+        recorder.collide(&querying, hand_on);
+    }
+    const RecordedProgram program = read();
+    EXPECT_THAT(program.requests, testing::ElementsAre(recording::Request{0, 0x1p64, 1, 0, 0}));
+    EXPECT_TRUE(program.touch.contacts);
+    EXPECT_GE(program.touch.max_contacts, 1'000'000u);
+}
+
+/// As most managers permit: nothing of it is looked at any more.
+TEST_F(Recorders, WhatIsRemovedMayBeGone) {
+    fcl::NaiveCollisionManagerd manager;
+    {
+        Recorder recorder(manager, file_);
+        add_balls(recorder);
+        const Object* const gone = objects_.front().get();
+        const Object unknown(ball_);
+        objects_.front().reset();
+        recorder.unregisterObject(const_cast<Object*>(gone));
+        recorder.unregisterObject(const_cast<Object*>(&unknown));
+    }
+    const RecordedProgram program = read();
+    EXPECT_EQ(program.n_objects(), 6u);
+    ASSERT_EQ(program.calls.size(), 9u);
+    EXPECT_EQ(program.calls[7].what, Call::remove);
+    EXPECT_THAT(program.objects_of(program.calls[7]), testing::ElementsAre(0u));
+    EXPECT_THAT(program.objects_of(program.calls[8]), testing::IsEmpty());
 }
 
 TEST_F(Recorders, AYesOrNoIsReplayedWhereMostRequestsHaveNoContacts) {

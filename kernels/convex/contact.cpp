@@ -4,6 +4,7 @@
 #include "kernels/convex/unit_flat.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace boxwood::convex {
 namespace {
@@ -88,9 +89,9 @@ template <class Each> void keep_four(const Each& each, V normal, Contacts& conta
     const V across = cross(normal, contacts.points[1].point - deepest);
     for (const double side : {1.0, -1.0})
         keep_best(0, [&](const ContactPoint& p) { return side * dot(across, p.point - deepest); });
-    std::stable_sort(
-        contacts.points.begin(), contacts.points.begin() + contacts.count,
-        [](const ContactPoint& p, const ContactPoint& q) { return p.depth > q.depth; });
+    for (Index i = 1; i < static_cast<Index>(contacts.count); ++i) // std::stable_sort may allocate
+        for (Index k = i; k > 0 && contacts.points[k].depth > contacts.points[k - 1].depth; --k)
+            std::swap(contacts.points[k], contacts.points[k - 1]);
 }
 
 /// Cuts b's face to a's, which is the more square to the normal.

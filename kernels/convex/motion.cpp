@@ -8,28 +8,6 @@ namespace {
 using namespace detail;
 using V = Vec3<double>;
 
-/// Axis times angle of the rotation that turns the first into the second.
-V turn_between(const Rows& from, const Rows& to) {
-    const Rows m = product(to, {{{from[0].x, from[1].x, from[2].x},
-                                 {from[0].y, from[1].y, from[2].y},
-                                 {from[0].z, from[1].z, from[2].z}}});
-    const V twice_sine{m[2].y - m[1].z, m[0].z - m[2].x, m[1].x - m[0].y};
-    const double s = length(twice_sine) / 2, c = (m[0].x + m[1].y + m[2].z - 1) / 2;
-    const double angle = std::atan2(s, c);
-    if (s > 0x1p-26)
-        return twice_sine * (angle / (2 * s));
-    if (c > 0)
-        return twice_sine * 0.5;
-    // Near half a turn m is about 2 aa' - 1.
-    int k = m[0].x >= m[1].y ? 0 : 1;
-    if (m[2].z > m[static_cast<std::size_t>(k)][k])
-        k = 2;
-    V axis = m[static_cast<std::size_t>(k)];
-    axis[k] += 1;
-    const double size = length(axis);
-    return size > 0 ? axis * (angle / size) : V{};
-}
-
 } // namespace
 
 Pose pose_at(const Motion& motion, double t) {
@@ -47,8 +25,8 @@ Pose pose_at(const Motion& motion, double t) {
 }
 
 Motion linear_motion(const Pose& from, const Pose& to) {
-    return {from, to.translation - from.translation, turn_between(from.rotation, to.rotation),
-            from.translation};
+    const AxisAngle turn = turn_between(from.rotation, to.rotation);
+    return {from, to.translation - from.translation, turn.axis * turn.angle, from.translation};
 }
 
 Motion screw_motion(const Pose& from, const Pose& to) {

@@ -17,7 +17,7 @@ struct Motion {
 Pose pose_at(const Motion& motion, double t);
 
 /// From one pose to another: the frame's origin moves along a line, and turns at constant speed, by
-/// at most pi. Where it ends is `to` up to rounding (and where the angle is near pi, to 2^-26).
+/// at most pi. Where it ends is `to` up to rounding.
 Motion linear_motion(const Pose& from, const Pose& to);
 /// The same with the origin on a helix: a turn about one axis and a shift along it.
 Motion screw_motion(const Pose& from, const Pose& to);
@@ -25,7 +25,8 @@ Motion screw_motion(const Pose& from, const Pose& to);
 namespace detail {
 /// How far pose_at may put a point of a shape that reaches this far: the angle is off by 4u of
 /// itself, sine and cosine by 2u, entries of the rotation by 8u and of the product by 12u, together
-/// 36u of a point's distance from the centre; the sums by 4u of the lengths added.
+/// less than 48u of a point's distance from the centre and 8u of that times the angle; the sums by
+/// less than 8u of the lengths added.
 double motion_error(const Motion& motion, double reach);
 } // namespace detail
 

@@ -62,6 +62,48 @@ inline Rotation rotation_about(Vec3<double> axis, double angle) {
     return rotation_about(axis, std::sin(angle), std::cos(angle));
 }
 
+struct AxisAngle {
+    Vec3<double> axis{0, 0, 1}; ///< of length 1
+    double angle = 0;           ///< 0 to pi, radians
+};
+
+/// The least turn that takes the first rotation to the second, about an axis of space, off by a few
+/// roundings. From the quaternion, whose greatest part is computed first, so that no angle is
+/// ill-conditioned.
+inline AxisAngle turn_between(const Rotation& from, const Rotation& to) {
+    const Rotation r = product(to, {{{from[0].x, from[1].x, from[2].x},
+                                     {from[0].y, from[1].y, from[2].y},
+                                     {from[0].z, from[1].z, from[2].z}}});
+    const double xx = r[0].x, yy = r[1].y, zz = r[2].z;
+    std::array<double, 4> q{1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz};
+    const auto greatest = static_cast<std::size_t>(std::ranges::max_element(q) - q.begin());
+    const double x = r[2].y - r[1].z, y = r[0].z - r[2].x, z = r[1].x - r[0].y;
+    const double xy = r[0].y + r[1].x, xz = r[0].z + r[2].x, yz = r[1].z + r[2].y;
+    switch (greatest) { // times 4 of the greatest part
+    case 0:
+        q = {q[0], x, y, z};
+        break;
+    case 1:
+        q = {x, q[1], xy, xz};
+        break;
+    case 2:
+        q = {y, xy, q[2], yz};
+        break;
+    default:
+        q = {z, xz, yz, q[3]};
+    }
+    Vec3<double> v{q[1], q[2], q[3]};
+    double w = q[0];
+    if (w < 0) {
+        w = -w;
+        v = -v;
+    }
+    const double size = length(v);
+    if (!(size > 0))
+        return {};
+    return {(1 / size) * v, 2 * std::atan2(size, w)};
+}
+
 /// The largest entry of |R R^T - I|; of finite numbers.
 inline double distance_from_orthonormal(const Rotation& r) {
     double largest = 0;

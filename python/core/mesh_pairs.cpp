@@ -274,7 +274,7 @@ vertex with a NaN or a number of 2^60 or more, and for an unknown name.)")
             arg("other"), at, other_at, py::kw_only(), arg("max_pairs") = py::none(),
             "The pairs of triangles, of this mesh and of the other (of a Shape 0, and also those "
             "that are apart by no more than rounding), that touch: shape (m, 2), uint32. "
-            "max_pairs: the search ends at so many.")
+            "max_pairs: at most so many; between two meshes the search ends there.")
         .def("distance", &distance_of, arg("other"), at, other_at, py::kw_only(),
              arg("relative") = 0.0, arg("absolute") = 0.0, arg("start") = py::none(),
              arg("limit") = std::numeric_limits<double>::infinity(),

@@ -54,6 +54,11 @@ class SrdfParser {
 
     Srdf parse() {
         const Element& robot = reader_.robot();
+        for (const char* of_urdf : {"link", "joint"})
+            if (const Element* e = robot.FirstChildElement(of_urdf))
+                reader_.fail(*e, fmt::format("a <{}> of the robot: this is a URDF file; name the "
+                                             "SRDF file, which has <disable_collisions>",
+                                             of_urdf));
         for_each_child(robot, "disable_default_collisions", [&](const Element& e) {
             const std::uint32_t link = link_of(e, "link");
             for (std::uint32_t other = 0; other < links_.size(); ++other)

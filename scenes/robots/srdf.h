@@ -27,7 +27,7 @@ struct Srdf {
 
 /// Reads by tinyxml2: disable_collisions, disable_default_collisions, enable_collisions (MoveIt's
 /// order of them), group_state. Throws std::runtime_error, "file:line: ...", for a file that is
-/// missing or malformed, and for links and joints that the robot does not have.
+/// missing or malformed or a URDF file, and for links and joints that the robot does not have.
 Srdf read_srdf(const std::filesystem::path& file, const RobotDescription& robot);
 Srdf parse_srdf(std::string_view text, const std::string& source, const RobotDescription& robot);
 

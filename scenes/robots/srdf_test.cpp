@@ -101,6 +101,10 @@ TEST(SrdfFile, ErrorsNameTheLineAndTheWayOut) {
         }
     };
     EXPECT_EQ(complaint(""), "accepted");
+    for (const char* name : {"link", "joint"})
+        EXPECT_THAT(complaint(std::string("<") + name + " name='base'/>"),
+                    HasSubstr(std::string("r.srdf:2: a <") + name +
+                              "> of the robot: this is a URDF file; name the SRDF file"));
     EXPECT_THAT(complaint("<disable_collisions link1='bas' link2='arm'/>"),
                 AllOf(HasSubstr("r.srdf:2: <disable_collisions link1=...>"),
                       HasSubstr("unknown link of the robot 'bas'; did you mean 'base'")));

@@ -15,6 +15,12 @@ from boxwood.results.words import interval_text, time_text
 # What stands in the place of a library's managers, whose names begin with the library's.
 OURS = {"fcl": "boxwood.fcl_manager", "coal": "boxwood.coal_manager"}
 WORLD = "boxwood.world"  # with a narrow phase of its own
+# Of made programs: frames by their number of bodies, and the shares that move. Published are all of them.
+FRAMES = {1_000: 50, 10_000: 20, 100_000: 10}
+MESH_FRAMES = {1_000: 10, 10_000: 2}  # of bodies that are meshes
+MOVED = (1, 0.01)
+# Of each library its dynamic tree, of pointers or in an array; by bounds in Morton order, too.
+TREES = ("dynamic_aabb_tree", "dynamic_aabb_tree_array")
 MIN_ROUNDS = 9  # that an interval takes
 NEAR = 1e-6  # of the program's own ratio and that of its samples
 
@@ -61,15 +67,23 @@ class Run:
         """Why these rows are not to be used; empty if they are."""
         for row in self.managers:
             times, first = row["rounds_ns"], self.managers[0]["rounds_ns"]
-            if row["manager"] in (*OURS.values(), WORLD) and row["wrong"]:
+            if row["manager"] in (*OURS.values(), WORLD) and (row["wrong"] or row.get("differ", 0)):
                 return f"{row['manager']} is wrong"
             if len(times) != len(first) or len(times) < MIN_ROUNDS or not min(times) > 0:
                 return f"{row['manager']} has not a time above 0 of each of {MIN_ROUNDS} rounds at least"
             if not math.isclose(statistics.median(ns / own for ns, own in zip(times, first)), row["over_first"]["mid"], rel_tol=NEAR):
                 return f"{row['manager']}: its ratio does not follow from its rounds"
-        if self.triangles and not self.checked:
+        if not self.checked:
             return "no answer was checked"
         return "" if self.times(self.ours("fcl")) else f"{self.ours('fcl')} is missing"
+
+    def missing(self):
+        """Managers without which the fastest may be missing."""
+        if self.triangles:
+            wanted = [f"{library}.{tree}, {shapes}" for library, shapes in (("fcl", "FCL's shapes"), ("coal", "Coal's shapes")) for tree in TREES]
+        else:
+            wanted = [f"{library}.{tree}{order}" for library in OURS for tree in TREES for order in ("", ".morton")]
+        return [name for name in wanted if not self.times(name)]
 
     def why_not(self, names):
         """Of managers that answer wrongly, what the best of them does; empty if one does not, or there is none."""
@@ -92,6 +106,15 @@ class DropinTimes:
         part.write_text(json.dumps({"env": self.env, "rounds": self.rounds, "runs": [vars(run) for run in self.runs]}) + "\n",
                         encoding="utf-8")
         part.replace(path)
+
+
+def lacks(times):
+    """What is missing of what is to be published, in words."""
+    there = {(run.bodies, run.moved, bool(run.triangles)) for run in times.runs}
+    found = [f"the program of {bodies:,} {'meshes' if are_meshes else 'bodies'} of which {moved:.0%} move"
+             for are_meshes, programs in ((False, FRAMES), (True, MESH_FRAMES)) for bodies in programs for moved in MOVED
+             if (bodies, moved, are_meshes) not in there]
+    return found + [f"{name} with {run.bodies:,} bodies" for run in times.runs for name in run.missing()]
 
 
 def read(path):

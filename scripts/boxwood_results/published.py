@@ -305,8 +305,9 @@ def faults(file, run, on_device=False):
 
 
 def is_since(root, commit, earlier):
-    """Whether a commit holds an earlier one; without git, or where it knows them not, nothing is against it."""
-    return git(root, "merge-base", "--is-ancestor", earlier, commit).returncode != 1
+    """Whether a commit holds an earlier one; without git, or where it does not know the earlier one, nothing is against it."""
+    is_known = git(root, "cat-file", "-e", f"{earlier}^{{commit}}").returncode == 0
+    return not is_known or git(root, "merge-base", "--is-ancestor", earlier, commit).returncode == 0
 
 
 def git(root, *arguments):
@@ -355,7 +356,8 @@ def problems(root):
         if len(values) > 1:
             found.append(f"results/published: files of more than {what}: {', '.join(map(str, sorted(values)))}")
     if (root / DROPIN).exists():
-        found += [f"{root / DROPIN}: measured before commit {commit[:8]} of the sweeps" for commit in commits
+        found += [f"{root / DROPIN}: it lacks {what}" for what in dropin_times.lacks(dropin_times.read(root / DROPIN))]
+        found += [f"{root / DROPIN}: not measured after commit {commit[:8]} of the sweeps" for commit in commits
                   if not is_since(root, dropin_times.read(root / DROPIN).env["git_commit"], commit)]
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]

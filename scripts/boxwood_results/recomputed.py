@@ -59,11 +59,15 @@ def is_near(a, b):
     return abs(a - b) <= NEAR * max(abs(a), abs(b))
 
 
-def is_held(row):
+DECIDED = ("faster", "slower")
+OF_THE_INTERVAL = ("too_noisy", "below_the_floor", "crosses_1")
+
+
+def is_held(row, verdict):
     """Whether a verdict's interval lies beyond 1, and the ratio beyond the noise floor; all of the interval, where that is above delta."""
-    near_end, floor = row["ci_hi" if row["verdict"] == "faster" else "ci_lo"], row["floor"]
+    near_end, floor = row["ci_hi" if verdict == "faster" else "ci_lo"], row["floor"]
     held = near_end if floor > row["delta"] else row["ratio"]
-    beyond_1 = near_end < 1 if row["verdict"] == "faster" else near_end > 1
+    beyond_1 = near_end < 1 if verdict == "faster" else near_end > 1
     return beyond_1 and not (floor >= 0 and 1 / (1 + floor) <= held <= 1 + floor)
 
 
@@ -178,6 +182,8 @@ def medians_and_ratios(source, times):
                 is_near(math.exp(lo), row["ci_lo"]) and is_near(math.exp(hi), row["ci_hi"])
                 for lo, hi in intervals(logs, [input_of[key] for key, _ in both])):
             found.append(f"{name}: not an interval of its samples")
-        elif row["verdict"] in ("faster", "slower") and not is_held(row):
+        elif row["verdict"] in DECIDED and not is_held(row, row["verdict"]):
             found.append(f"{name}: called {row['verdict']}, and its interval or the noise floor does not")
+        elif row["verdict"] == "cannot_tell" and row["reason"] in OF_THE_INTERVAL and any(is_held(row, verdict) for verdict in DECIDED):
+            found.append(f"{name}: called open ({row['reason']}), and its interval and the noise floor decide it")
     return found

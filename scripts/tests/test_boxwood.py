@@ -5,6 +5,7 @@ BOXWOOD_BUILD names the build folder (build/release if not set).
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -214,6 +215,8 @@ def test_scene_describes_and_draws(tmp_path):
     svg = tmp_path / "own.svg"
     answer("scene", str(own), "--n", "20", "--frame", "3", "--svg", str(svg), "--depth", "1")
     assert "frame 3: 20 bodies, 20 changed" in svg.read_text()
+    done = boxwood("scene", "rubble", "--svg", str(svg))
+    assert done.returncode == 0 and re.fullmatch(r"drawing \d+ instead of \d+ bodies; --n \d+ draws them all\n", done.stderr)
     own.write_text('[[bodies]]\ngenerator = "cubes"\neffects = "drfit"\n')
     done = boxwood("scene", str(own))
     assert done.returncode == 2 and f"{own}:3: " in done.stderr and "did you mean 'drift'?" in done.stderr

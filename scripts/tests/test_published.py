@@ -196,6 +196,30 @@ def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, colum
     assert "do not follow from its samples" in said and problem in said
 
 
+@pytest.mark.parametrize("verdict", ["faster", "slower"])
+def test_what_is_decided_is_not_called_open(verdict):
+    row = {"ratio": 2 if verdict == "slower" else 0.5, "ci_lo": 1.8, "ci_hi": 2.2, "floor": 0.1, "delta": 0.05}
+    if verdict == "faster":
+        row |= {"ci_lo": 0.4, "ci_hi": 0.6}
+    other = "faster" if verdict == "slower" else "slower"
+    assert recomputed.is_held(row, verdict) and not recomputed.is_held(row, other)
+    assert not recomputed.is_held(row | {"floor": 2}, verdict)
+
+
+def test_a_loss_that_is_called_open_is_said(root):
+    file = file_of(root, "pairs", synthetic.full(wrong=False))
+    published.freeze(root)
+    with h5py.File(file, "a") as tables:
+        rows = tables["compare"][:]
+        decided = [verdict in (b"faster", b"slower") for verdict in rows["verdict"]]
+        assert any(decided)
+        rows["verdict"][decided], rows["reason"][decided] = b"cannot_tell", b"too_noisy"
+        tables["compare"][:] = rows
+    synthetic.seal(file)
+    published.write(root)
+    assert any("called open (too_noisy), and its interval and the noise floor decide it" in line for line in published.problems(root))
+
+
 def test_a_file_without_its_seal_is_said(root):
     file = file_of(root, "effects", synthetic.full(wrong=False))
     published.freeze(root)

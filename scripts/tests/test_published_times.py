@@ -4,10 +4,11 @@ import subprocess
 
 import pytest
 import synthetic
-from synthetic import file_of
+from synthetic import SCRIPTS, file_of
 
 from boxwood_results import dropin_times, published, python_times
 
+ROOT = SCRIPTS.parent
 TABLES = "results/published/tables.md"
 
 
@@ -37,6 +38,11 @@ def test_what_python_takes_is_shown_with_its_intervals(root):
             published.problems(root)
 
 
+def problems(root):
+    """But for what the drop-in's file lacks, which is here of a program or two."""
+    return [line for line in published.problems(root) if "it lacks" not in line]
+
+
 def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     def manager(name, ratio, wrong=0):
         spread = [1.0] * 9 if ratio == 1 else [0.8, 0.9, 1, 1, 1, 1, 1, 1.1, 1.2]
@@ -52,7 +58,7 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     published.write(root)
     text = (root / "README.md").read_text()
     assert "| 1.00 ms for 50 frames | 4.00x (3.60 to 4.40) fcl.fast | 2.00 ms for 50 frames | 1.05x (0.859 to 1.28) ? coal.array | 40 of 50 |" in text
-    assert "9 rounds in turns within one process, a CPU, 2 cores, commit abcdef01" in text and published.problems(root) == []
+    assert "9 rounds in turns within one process, a CPU, 2 cores, commit abcdef01" in text and problems(root) == []
     assert "dropin.json --rounds 9 --bodies 1000 --meshes`" in text
 
     world = [manager("boxwood.world", 1), manager("boxwood.fcl_manager, FCL's shapes", 5), manager("boxwood.fcl_manager_f32, FCL's shapes", 4),
@@ -63,7 +69,7 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     text = (root / TABLES).read_text()
     assert ("| 1,000 | 500 | all | 20 | 200 of 210 | 1.00 ms for 10 frames | 8.00x (7.20 to 8.80) tree | 1 wrong | 4.00x (3.60 to 4.40) |  |"
             ) in text
-    assert "dropin.json --rounds 9 --bodies 1000 --meshes 1000`" in text and published.problems(root) == []
+    assert "dropin.json --rounds 9 --bodies 1000 --meshes 1000`" in text and problems(root) == []
 
     world[-1].update(wrong=0, differ=3)
     assert [runs[1].why_not([name]) for name in ("boxwood.world", "nobody", "coal.tree, Coal's shapes")] == ["", "", "3 unlike ours"]
@@ -77,10 +83,23 @@ def test_what_the_drop_in_gains_is_shown_by_its_fastest_rival(root):
     refused("fcl.fast: its ratio does not follow from its rounds")
     runs[0].managers[1]["rounds_ns"].pop()
     refused("fcl.slow has not a time above 0 of each of 9 rounds at least")
-    runs[0].managers[0]["wrong"] = 1
-    refused("boxwood.fcl_manager is wrong")
-    runs[:] = [dropin_times.Run(1000, 1, 10, world, triangles=500)]
-    refused("no answer was checked")
+    for key in ("differ", "wrong"):
+        runs[0].managers[0][key] = 1
+        refused("boxwood.fcl_manager is wrong")
+        runs[0].managers[0][key] = 0
+    for triangles in (0, 500):
+        runs[:] = [dropin_times.Run(1000, 1, 10, world, triangles)]
+        refused("no answer was checked")
+
+
+def test_what_the_drop_in_was_not_held_against_is_said():
+    times = dropin_times.read(ROOT / published.DROPIN)
+    assert dropin_times.lacks(times) == []
+    bounds, meshes = times.runs[0], times.runs[-1]
+    bounds.managers[:] = [row for row in bounds.managers if "morton" not in row["manager"]]
+    assert len(dropin_times.lacks(times)) == 4 and "fcl.dynamic_aabb_tree.morton with 1,000 bodies" in dropin_times.lacks(times)
+    times.runs.remove(meshes)
+    assert "the program of 10,000 meshes of which 1% move" in dropin_times.lacks(times)
 
 
 def test_the_drop_in_is_measured_on_the_machine_of_the_sweeps_and_not_before_them(root):
@@ -97,15 +116,16 @@ def test_the_drop_in_is_measured_on_the_machine_of_the_sweeps_and_not_before_the
     def said(sweeps, dropin, isa):
         file_of(root, "effects", synthetic.full(wrong=False), git_commit=sweeps)
         env = {"host": "testhost", "cpu": "Test CPU & <Core> 9", "ncpu": 2, "git_commit": dropin, "git_dirty": 0, "created_utc": "2026-11-26T10", "versions": {}}
-        dropin_times.DropinTimes(9, [dropin_times.Run(1000, 1, 50, managers)], env | isa).write(root / published.DROPIN)
+        dropin_times.DropinTimes(9, [dropin_times.Run(1000, 1, 50, managers, queries=9, checked=9)], env | isa).write(root / published.DROPIN)
         published.freeze(root)
         published.write(root)
-        return published.problems(root)
+        return problems(root)
 
     before, after = commits
     assert said(before, after, {}) == said(before, before, {"isa_max": "AVX3"}) == said("0" * 40, after, {}) == []
-    (earlier,) = said(after, before, {})
-    assert f"measured before commit {after[:8]} of the sweeps" in earlier
+    for not_after in (before, "f" * 40):
+        (earlier,) = said(after, not_after, {})
+        assert f"not measured after commit {after[:8]} of the sweeps" in earlier
     (another,) = said(before, after, {"isa_max": "AVX2"})
     assert "more than one machine" in another and "AVX2" in another and "AVX3" in another
 

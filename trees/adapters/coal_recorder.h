@@ -13,7 +13,6 @@
 #include <coal/distance.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <vector>
 
 namespace boxwood {

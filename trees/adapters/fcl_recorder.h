@@ -12,7 +12,6 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <vector>
 
 namespace boxwood {

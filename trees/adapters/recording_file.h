@@ -90,15 +90,19 @@ class RecordingFile {
                 H5Gcreate2(file.file_, group.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
             file.check(made);
             for (std::size_t i = 0; i < columns.size(); ++i)
-                columns_[i].set = file.make_column(made, std::string(columns[i]));
+                columns_[i].set = make_column(made, std::string(columns[i]));
             H5Gclose(made);
+            for (const Column& column : columns_)
+                if (column.set < 0) {
+                    close();
+                    file.check(column.set);
+                }
         }
         Table(const Table&) = delete;
         Table& operator=(const Table&) = delete;
         ~Table() {
             const QuietHdf5 quiet;
-            for (const Column& column : columns_)
-                H5Dclose(column.set);
+            close();
         }
 
         void add(std::span<const double> row) {
@@ -115,6 +119,12 @@ class RecordingFile {
         }
 
       private:
+        void close() {
+            for (const Column& column : columns_)
+                if (column.set >= 0)
+                    H5Dclose(column.set);
+        }
+
         struct Column {
             hid_t set = -1;
             hsize_t n_written = 0;
@@ -156,7 +166,8 @@ class RecordingFile {
             throw std::runtime_error(path_ + ": the recording cannot be written; is there such a "
                                              "folder, and space on the disk?");
     }
-    hid_t make_column(hid_t group, const std::string& name) const {
+    /// Below 0 if it cannot be made.
+    static hid_t make_column(hid_t group, const std::string& name) {
         const hsize_t none = 0, unlimited = H5S_UNLIMITED;
         const hid_t space = H5Screate_simple(1, &none, &unlimited);
         const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
@@ -167,7 +178,6 @@ class RecordingFile {
             H5Dcreate2(group, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT);
         H5Pclose(how);
         H5Sclose(space);
-        check(made);
         return made;
     }
 

@@ -4,57 +4,11 @@
 #include <cmath>
 
 namespace boxwood {
-namespace {
-
-struct AxisAngle {
-    Vec3<double> axis{0, 0, 1};
-    double angle = 0; ///< 0 to pi
-};
-
-/// From the quaternion, whose greatest part is computed first, so that no angle is ill-conditioned.
-AxisAngle axis_angle_of(const Rotation& r) {
-    const double xx = r[0].x, yy = r[1].y, zz = r[2].z;
-    std::array<double, 4> q{1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz};
-    const auto greatest = static_cast<std::size_t>(std::ranges::max_element(q) - q.begin());
-    const double x = r[2].y - r[1].z, y = r[0].z - r[2].x, z = r[1].x - r[0].y;
-    const double xy = r[0].y + r[1].x, xz = r[0].z + r[2].x, yz = r[1].z + r[2].y;
-    switch (greatest) { // times 4 of the greatest part
-    case 0:
-        q = {q[0], x, y, z};
-        break;
-    case 1:
-        q = {x, q[1], xy, xz};
-        break;
-    case 2:
-        q = {y, xy, q[2], yz};
-        break;
-    default:
-        q = {z, xz, yz, q[3]};
-    }
-    Vec3<double> v{q[1], q[2], q[3]};
-    double w = q[0];
-    if (w < 0) {
-        w = -w;
-        v = -v;
-    }
-    const double size = length(v);
-    if (!(size > 0))
-        return {};
-    return {(1 / size) * v, 2 * std::atan2(size, w)};
-}
-
-} // namespace
-
 Motion::Motion(const Pose& from, const Pose& to, MotionPath kind) : from_(checked_pose(from)) {
     const Pose end = checked_pose(to);
-    Rotation back; // the inverse of the start
-    for (int i = 0; i < 3; ++i)
-        back[static_cast<std::size_t>(i)] = {from_.rotation[0][i], from_.rotation[1][i],
-                                             from_.rotation[2][i]};
-    const Rotation turn = product(end.rotation, back); // end = turn after start
-    const AxisAngle a = axis_angle_of(turn);
-    axis_ = a.axis;
-    angle_ = a.angle;
+    const AxisAngle turn = turn_between(from_.rotation, end.rotation);
+    axis_ = turn.axis;
+    angle_ = turn.angle;
     way_ = end.translation - from_.translation;
     is_screw_ = kind == MotionPath::screw;
     if (is_screw_) {

@@ -114,7 +114,9 @@ CountComparison compare_counts(const Results& base, const Results& head,
         result.only_head.push_back(name);
     result.is_sealed = base.is_sealed && head.is_sealed;
     result.gate =
-        result.lost.empty() && !result.rows.empty() && result.is_sealed ? Gate::passes : Gate::open;
+        result.lost.empty() && !result.rows.empty() && result.is_sealed && result.has_instructions
+            ? Gate::passes
+            : Gate::open;
     for (const CountRow& row : result.rows)
         result.gate = std::max(result.gate, row.gate);
     if (!result.newly_wrong.empty())

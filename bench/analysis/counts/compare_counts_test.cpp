@@ -155,6 +155,17 @@ TEST(CompareCounts, AnAnswerNewlyWrongFails) {
     EXPECT_EQ(compare_counts(head, head).gate, Gate::passes); // of a kernel without a promise
 }
 
+TEST(CompareCounts, WithoutInstructionsItCannotTell) {
+    Results base = with_counts();
+    base.texts.erase("instructions_by");
+    for (const Results& head : {base, with_counts()}) {
+        EXPECT_EQ(compare_counts(base, head).gate, Gate::open);
+        EXPECT_THAT(verdict_of(base, head),
+                    StartsWith("CAN'T TELL: no instructions were counted in the base: boxwood "
+                               "sweep --count does"));
+    }
+}
+
 TEST(CompareCounts, InstructionsOfAnotherCounterAreOpen) {
     Results head = with_counts();
     head.texts["instructions_by"] = "valgrind-4, AVX2";

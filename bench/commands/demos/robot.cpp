@@ -182,7 +182,10 @@ std::string lesson_of(const RobotDemo& demo, const RobotCase& robot,
         "   so is everything inside them. Of the pairs that are found those that are allowed to\n"
         "   collide are dropped ({}, {}). The rest are looked at triangle\n"
         "   by triangle: only that tells whether links touch, and how far apart they are.\n\n{}\n",
-        lesson.allowed_text(), proposed ? "as there is no --srdf" : "as the SRDF file says",
+        lesson.allowed_text(),
+        proposed                  ? "as there is no --srdf"
+        : allowed.pairs().empty() ? "as the SRDF file has no pair, not even of adjacent links"
+                                  : "as the SRDF file says",
         pairs_text(lesson, tree));
 
     RobotSelfCollision probe(robot.robot, robot.boxes, allowed, narrow_phase);

@@ -33,6 +33,10 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
         const std::size_t n = allow_adjacent(robot.robot, robot.allowed);
         say(fmt::format("boxwood: no --srdf: {} pairs of adjacent links are allowed to collide{}\n",
                         n, query.samples ? "" : "; --samples N proposes more"));
+    } else if (robot.allowed.pairs().empty() && !query.samples) {
+        say(fmt::format("boxwood: {} allows no pair to collide, not even adjacent links; without "
+                        "--srdf those are allowed, and --samples N proposes more\n",
+                        *query.files.srdf));
     }
     if (query.samples) {
         const auto draw = [&](std::uint64_t i, std::span<double> values) {

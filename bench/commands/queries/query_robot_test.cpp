@@ -174,7 +174,16 @@ TEST_F(QueryRobot, AnSrdfFileSaysWhatIsAllowedAndNamesStates) {
                                 HasSubstr("filtered,0,b,c\ncolliding,0,b,c\n")));
     query_.state = "out";
     EXPECT_THAT(complaint(), HasSubstr("unknown state 'out'"));
+    query_.state.reset();
+    query_.files.srdf = put("nothing.srdf", "<robot/>");
+    ::testing::internal::CaptureStderr();
+    answer();
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+                HasSubstr("nothing.srdf allows no pair to collide, not even adjacent links"));
+    query_.files.srdf = query_.files.urdf;
+    EXPECT_THAT(complaint(), HasSubstr("this is a URDF file"));
     query_.files.srdf.reset();
+    query_.state = "out";
     EXPECT_THAT(complaint(), HasSubstr("give one by --srdf"));
 }
 

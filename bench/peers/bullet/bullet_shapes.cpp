@@ -86,20 +86,22 @@ struct Pair {
     }
 };
 
-/// As Bullet's own algorithm for two convex shapes: what is farther apart than they may be to touch
-/// needs no distance, so that GJK ends at the first axis that separates them so far. Where they
-/// overlap it may end at a distance that is not quite 0.
-Decision collide(Pair& p) {
+/// As in Bullet's own algorithm for two convex shapes, what is farther apart than they may be to
+/// touch needs no distance, so that GJK ends at the first axis that separates them so far. Where
+/// they overlap it may end at a distance that is not quite 0, or, without a solver for depth, as
+/// that algorithm has one, at none that is right.
+template <bool with_depth> Decision collide(Pair& p) {
     if (!p.a || !p.b)
         return {Answer::maybe, 0};
     const btScalar touch = p.rounding, at_most = p.a->getMargin() + p.b->getMargin() + touch;
     p.input.m_maximumDistanceSquared = at_most * at_most;
     btVoronoiSimplexSolver simplex;
-    btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, nullptr);
+    btGjkEpaPenetrationDepthSolver depth;
+    btGjkPairDetector detector(p.a.get(), p.b.get(), &simplex, with_depth ? &depth : nullptr);
     btPointCollector result;
     detector.getClosestPoints(p.input, result, nullptr);
-    if (result.m_hasResult)
-        return yes_or_no(result.m_distance <= touch);
+    if (result.m_hasResult || with_depth)
+        return yes_or_no(result.m_hasResult && result.m_distance <= touch);
     constexpr int found_a_distance = 1; // too far to be a result; else the two overlap
     return yes_or_no(detector.m_lastUsedMethod != found_a_distance);
 }
@@ -125,6 +127,45 @@ double distance_of_spheres(const Pair& p) {
     return between.length() - (static_cast<const btSphereShape&>(*p.a).getRadius() +
                                static_cast<const btSphereShape&>(*p.b).getRadius());
 }
+/// Of a capsule along z, or of a sphere, which is one of no length.
+struct Rod {
+    btVector3 centre, half; ///< half its axis, in the world
+    btScalar radius;
+
+    Rod(const btConvexInternalShape& shape, const btTransform& at) : centre(at.getOrigin()) {
+        if (shape.getShapeType() == SPHERE_SHAPE_PROXYTYPE) {
+            half.setZero();
+            radius = static_cast<const btSphereShape&>(shape).getRadius();
+            return;
+        }
+        const auto& capsule = static_cast<const btCapsuleShape&>(shape);
+        half = at.getBasis().getColumn(2) * capsule.getHalfHeight();
+        radius = capsule.getRadius();
+    }
+};
+bool are_rods(const Pair& p) {
+    const auto is_rod = [](const Shape& shape) {
+        return shape && (shape->getShapeType() == CAPSULE_SHAPE_PROXYTYPE ||
+                         shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE);
+    };
+    return is_rod(p.a) && is_rod(p.b) &&
+           !(p.a->getShapeType() == SPHERE_SHAPE_PROXYTYPE &&
+             p.b->getShapeType() == SPHERE_SHAPE_PROXYTYPE);
+}
+/// As btConvexConvexAlgorithm has two capsules, and a capsule and a sphere: by their axes' nearest
+/// points.
+double distance_of_rods(const Pair& p) {
+    const Rod a(*p.a, p.input.m_transformA), b(*p.b, p.input.m_transformB);
+    const btVector3 between = b.centre - a.centre;
+    const btScalar aa = a.half.length2(), bb = b.half.length2(), ab = a.half.dot(b.half),
+                   to_a = a.half.dot(between), to_b = b.half.dot(between), det = aa * bb - ab * ab;
+    const auto within = [](btScalar x) { return std::clamp(x, btScalar(-1), btScalar(1)); };
+    btScalar s = det > 0 ? within((to_a * bb - to_b * ab) / det) : btScalar(0);
+    const btScalar t = bb > 0 ? within((s * ab - to_b) / bb) : btScalar(0);
+    if (aa > 0)
+        s = within((t * ab + to_a) / aa);
+    return (between + t * b.half - s * a.half).length() - (a.radius + b.radius);
+}
 /// By btBoxBoxCollisionAlgorithm's detector: negative; nothing where they are apart.
 std::optional<double> depth_of_boxes(const Pair& p) {
     btBoxBoxDetector detector(static_cast<const btBoxShape*>(p.a.get()),
@@ -138,11 +179,14 @@ Decision default_collide(Pair& p) {
         return yes_or_no(distance_of_spheres(p) <= 0);
     if (both_are(p, BOX_SHAPE_PROXYTYPE))
         return yes_or_no(depth_of_boxes(p).has_value());
-    return collide(p);
+    if (are_rods(p))
+        return yes_or_no(distance_of_rods(p) <= 0);
+    return collide<true>(p);
 }
 template <bool is_signed> Distance default_distance(const Pair& p) {
-    if (both_are(p, SPHERE_SHAPE_PROXYTYPE)) {
-        const double found = distance_of_spheres(p);
+    const bool are_spheres = both_are(p, SPHERE_SHAPE_PROXYTYPE);
+    if (are_spheres || are_rods(p)) {
+        const double found = are_spheres ? distance_of_spheres(p) : distance_of_rods(p);
         return plain_distance(is_signed ? found : std::max(found, 0.0));
     }
     if (is_signed && both_are(p, BOX_SHAPE_PROXYTYPE))
@@ -174,7 +218,7 @@ std::vector<ContenderEntry> bullet_shapes() {
         "input rounded to float; margins 0 but of spheres and capsules, whose radius it is; one "
         "pair per call";
     std::vector<ContenderEntry> all{
-        each_case<ShapePairCase, Pair, collide>(
+        each_case<ShapePairCase, Pair, collide<false>>(
             "shape_collide", "bullet", "shapes.collide", "f32",
             "Bullet's btGjkPairDetector without a solver for depth",
             "m_maximumDistanceSquared of the margins, as in its own algorithm, and of 1e-4 of the "
@@ -189,18 +233,20 @@ std::vector<ContenderEntry> bullet_shapes() {
             "Bullet's btGjkPairDetector with btGjkEpaPenetrationDepthSolver", notes),
         each_case<ShapePairCase, Pair, default_collide>(
             "shape_collide", "bullet", "shapes.collide.default_configuration", "f32",
-            "Bullet's algorithms of two boxes and of two spheres, else as shapes.collide",
-            "btBoxBoxDetector, a formula; " + notes),
+            "Bullet's algorithms of two boxes, of spheres and capsules, else btGjkPairDetector "
+            "with "
+            "btGjkEpaPenetrationDepthSolver",
+            "btBoxBoxDetector, formulas; " + notes),
         each_case<ShapePairCase, Pair, default_distance<false>>(
             "shape_distance", "bullet", "shapes.distance.default_configuration", "f32",
-            "Bullet's algorithm of two spheres, else as shapes.distance",
+            "Bullet's algorithms of spheres and capsules, else as shapes.distance",
             "no result is read as 0; " + notes),
         each_case<ShapePairCase, Pair, default_distance<true>>(
             "signed_shape_distance", "bullet", "shapes.signed_distance.default_configuration",
             "f32",
-            "Bullet's algorithms of two boxes that overlap and of two spheres, else as "
+            "Bullet's algorithms of two boxes that overlap, of spheres and capsules, else as "
             "shapes.signed_distance",
-            "btBoxBoxDetector, a formula; " + notes)};
+            "btBoxBoxDetector, formulas; " + notes)};
     for (ContenderEntry& e : all)
         e.cannot = cannot;
     return all;

@@ -66,9 +66,12 @@ template <class S> struct Pair {
     fcl::CollisionResult<S> touches;
     fcl::DistanceResult<S> nearest;
     bool has_depth; ///< of its contact, in closed form
+    bool are_capsules;
     explicit Pair(const ShapePairCase& c)
         : a(geometry_of<S>(c.a)), b(geometry_of<S>(c.b)), pose_a(transform_of<S>(c.a.pose)),
-          pose_b(transform_of<S>(c.b.pose)), has_depth(depth_is_closed(*a, *b)) {}
+          pose_b(transform_of<S>(c.b.pose)), has_depth(depth_is_closed(*a, *b)),
+          are_capsules(a->getNodeType() == fcl::GEOM_CAPSULE &&
+                       b->getNodeType() == fcl::GEOM_CAPSULE) {}
 
     static bool depth_is_closed(const fcl::CollisionGeometry<S>& a,
                                 const fcl::CollisionGeometry<S>& b) {
@@ -91,17 +94,24 @@ template <class S, fcl::GJKSolverType solver> Decision collide(Pair<S>& p) {
                      0);
 }
 
-template <class S, fcl::GJKSolverType solver> Distance distance(Pair<S>& p) {
+template <class S, fcl::GJKSolverType solver> double plain(Pair<S>& p) {
     fcl::DistanceRequest<S> request;
     request.gjk_solver_type = solver;
     p.nearest.clear();
     fcl::distance<S>(p.a.get(), p.pose_a, p.b.get(), p.pose_b, request, p.nearest);
-    return plain_distance(std::max(static_cast<double>(p.nearest.min_distance), 0.0));
+    return static_cast<double>(p.nearest.min_distance);
 }
 
-/// By the contact, where FCL has its depth in closed form: its polytope needs tens of milliseconds
-/// for two spheres. NaN where FCL gives up: its polytope throws.
+template <class S, fcl::GJKSolverType solver> Distance distance(Pair<S>& p) {
+    return plain_distance(std::max(plain<S, solver>(p), 0.0));
+}
+
+/// By the contact, where FCL has its depth in closed form, and of two capsules by the distance,
+/// which is one that goes below zero: its polytope needs tens of milliseconds for two spheres. NaN
+/// where FCL gives up: its polytope throws.
 template <class S, fcl::GJKSolverType solver> Distance signed_distance(Pair<S>& p) {
+    if (p.are_capsules)
+        return plain_distance(plain<S, solver>(p));
     if (p.has_depth) {
         fcl::CollisionRequest<S> request;
         request.enable_contact = true;
@@ -145,9 +155,9 @@ void append(std::vector<ContenderEntry>& all, const std::string& after, const st
         all.push_back(each_case<ShapePairCase, Pair<S>, signed_distance<S, solver>>(
             "signed_shape_distance", "fcl", name + "signed_distance" + after, precision,
             "FCL's signed distance of two shapes, " + how,
-            "without points; a sphere and another, a box, capsule or cylinder by distance and, "
-            "where "
-            "they overlap, the depth of their contact, which is a closed form; the rest by its "
+            "without points; two capsules by distance, which goes below zero; a sphere and "
+            "another, a box, capsule or cylinder, and two boxes by distance and, where they "
+            "overlap, the depth of their contact, which is a closed form; the rest by its "
             "polytope; no answer where FCL throws; " +
                 notes));
 }

@@ -21,6 +21,7 @@ HOW_TO_READ = (
 COLUMNS = ("task", "class", "scene", "n", "threads", "ours", "peer", "peer_library", "phase", "rounds",
            "ratio", "ratio_lo", "ratio_hi", "verdict", "reason")
 GAP = 0.36  # inches above a block
+LETTER = 0.064  # of a text, about, in inches
 NAMES, PANEL, TEXTS, TOP, BOTTOM = 0.95, 2.5, 2.35, 0.35, 0.6
 
 
@@ -103,7 +104,8 @@ def said_of(comparison):
     words = comparison.verdict_text
     if comparison.verdict in ("faster", "slower"):
         words = f"{comparison.b.library_title} {words}"
-    return words if comparison.a.job == comparison.b.job else f"{words}; it on {comparison.a.job.where}"
+    words = words if comparison.a.job == comparison.b.job else f"{words}, peer on {comparison.a.job.where}"
+    return f"{comparison.text}  {words}"
 
 
 def ratio_axis(ax, comparisons):
@@ -127,7 +129,7 @@ def draw_column(ax, found, column, rows):
             y -= style.ROW
             comparison = known.get(library)
             entries.append((y, comparison))
-            said = f"{comparison.text}  {said_of(comparison)}" if comparison else (
+            said = said_of(comparison) if comparison else (
                 "no build" if peer.keeps_structure else "the peer has no build")
             style.row_texts(ax, y, peer.library_title, said, style.text_colour(peer), style.INK if comparison else "#777777")
             if comparison:
@@ -146,7 +148,8 @@ def draw_one(run, task, contender_class, where, found):
     height = sum(GAP + style.ROW * len(block.libraries) for block in found) + 0.12
     known = run.tasks[task]
     titles = [known.total_title] if known.in_frames else [known.total_title, "query alone"]
-    wide = NAMES + PANEL + TEXTS
+    said = [said_of(comparison) for block in found for column in range(len(titles)) for comparison in block.fastest(column).values() if comparison]
+    wide = NAMES + PANEL + max([TEXTS, *(LETTER * len(text) for text in said)])
     size = (wide * len(titles), height + TOP + BOTTOM)
     figure = style.plt.figure(figsize=size)
     rows = []

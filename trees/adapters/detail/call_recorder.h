@@ -190,13 +190,15 @@ template <class Library> class CallRecorder {
         if (!tables_)
             return std::nullopt;
         Pending row(call);
-        for (const Object* object : objects)
-            if (object)
-                row.is_certain &= follow(*object, row);
-        if (call != recording::Call::update_all)
+        // A manager takes the address alone of what is removed, which may be gone by then.
+        if (call != recording::Call::remove)
             for (const Object* object : objects)
                 if (object)
-                    row.objects.push_back(number_of(object));
+                    row.is_certain &= follow(*object, row);
+        if (call != recording::Call::update_all)
+            for (const Object* object : objects)
+                if (known_.contains(object))
+                    row.objects.push_back(known_.at(object).number);
         if (call == recording::Call::remove || call == recording::Call::clear)
             forget(call, objects);
         return pending_.insert(pending_.end(), std::move(row));

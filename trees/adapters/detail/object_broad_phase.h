@@ -108,6 +108,8 @@ template <class Library> class ObjectBroadPhase {
     std::size_t size() const { return item_of_.size(); }
 
     template <class Callback> void collide(Object* object, const Callback& callback) const {
+        if (!object)
+            throw_null();
         const Query query(*this, ItemTree::per_query);
         collide_one(object, callback);
     }
@@ -129,6 +131,8 @@ template <class Library> class ObjectBroadPhase {
     }
 
     template <class Callback> void distance(Object* object, const Callback& callback) const {
+        if (!object)
+            throw_null();
         const Query query(*this, ItemTree::per_query);
         Nearest<Callback> nearest(callback);
         distance_one(object, nearest);
@@ -186,7 +190,7 @@ template <class Library> class ObjectBroadPhase {
 
     [[noreturn]] static void throw_null() {
         throw std::invalid_argument(std::string(Library::name) +
-                                    ": a null pointer is registered; give an object");
+                                    ": a null pointer is no object; give an object");
     }
     void begin_change() {
         if (queries_ != 0)

@@ -66,6 +66,8 @@ TYPED_TEST_P(ManagerTest, OfNothingShowsNothing) {
     Api::distance(manager, counted);
     Api::distance(manager, counted, static_cast<typename Api::Object*>(this->body(0)));
     Api::distance(manager, counted, others);
+    EXPECT_THROW(Api::distance(manager, counted, static_cast<typename Api::Object*>(nullptr)),
+                 std::invalid_argument);
     EXPECT_THAT(shown.pairs, testing::IsEmpty());
     EXPECT_EQ(counted.calls, 0);
     this->added(0);
@@ -109,6 +111,9 @@ TYPED_TEST_P(ManagerTest, ObjectsAreASet) {
     EXPECT_EQ(manager.size(), 1u);
     EXPECT_THROW(manager.registerObject(nullptr), std::invalid_argument);
     EXPECT_THROW(manager.registerObjects({a, nullptr}), std::invalid_argument);
+    typename TypeParam::Object* none = nullptr;
+    ShownPairs<TypeParam> shown;
+    EXPECT_THROW(TypeParam::collide(manager, shown, none), std::invalid_argument);
     EXPECT_EQ(manager.size(), 1u);
     manager.clear();
     EXPECT_TRUE(manager.empty());

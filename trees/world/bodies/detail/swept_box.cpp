@@ -1,9 +1,7 @@
 #include "trees/world/bodies/detail/swept_box.h"
 
 #include "kernels/arithmetic/rounding.h"
-
-#include <algorithm>
-#include <cmath>
+#include "trees/world/pose.h"
 
 namespace boxwood::detail {
 namespace {
@@ -15,24 +13,13 @@ Aabb<double> wider(Aabb<double> box, double by) {
 }
 
 /// The boxes at nine times, wider by what a point goes from one of them to the middle between two.
-template <class PoseAt>
-Aabb<double> sampled(const BodyShape& shape, const PoseAt& pose_at, double longest_way) {
+Aabb<double> sampled(const BodyShape& shape, const Motion& motion) {
     constexpr int steps = 8;
     Aabb<double> box;
     for (int i = 0; i <= steps; ++i)
-        box.extend(shape.bounds_at(pose_at(static_cast<double>(i) / steps)));
+        box.extend(shape.bounds_at(motion.at(static_cast<double>(i) / steps)));
+    const double longest_way = motion.longest_way(round_outward(shape.bounds()));
     return wider(box, longest_way / (2 * steps) * (1 + 0x1p-40));
-}
-
-/// As Motion::longest_way.
-double longest_way(const convex::Motion& motion, const Aabb<double>& box) {
-    double fastest = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3<double> p{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y,
-                             corner & 4 ? box.max.z : box.min.z};
-        fastest = std::max(fastest, length(cross(motion.spin, motion.start(p) - motion.centre)));
-    }
-    return (length(motion.velocity) + fastest) * (1 + 0x1p-40);
 }
 
 } // namespace
@@ -40,8 +27,10 @@ double longest_way(const convex::Motion& motion, const Aabb<double>& box) {
 convex::Motion convex_motion(const MovingShape& of) {
     if (of.from.rotation == of.to.rotation) // and not by a rounding
         return {of.from, of.to.translation - of.from.translation, {}, of.from.translation};
-    return of.path == MotionPath::screw ? convex::screw_motion(of.from, of.to)
-                                        : convex::linear_motion(of.from, of.to);
+    // As Motion has them: near half a turn a rounding decides which way it goes.
+    const Pose from = checked_pose(of.from), to = checked_pose(of.to);
+    return of.path == MotionPath::screw ? convex::screw_motion(from, to)
+                                        : convex::linear_motion(from, to);
 }
 
 Aabb<double> swept_box(const MovingShape& of) {
@@ -56,16 +45,7 @@ Aabb<double> swept_box(const MovingShape& of) {
     if (of.from.rotation == of.to.rotation) // all points go on straight lines
         return wider(merge(shape.bounds_at(of.from), shape.bounds_at(of.to)), by);
     const Motion motion(of.from, of.to, of.path);
-    Aabb<double> box = sampled(
-        shape, [&](double t) { return motion.at(t); },
-        motion.longest_way(round_outward(shape.bounds())));
-    if (shape.shape_class() == ShapeClass::convex) {
-        const convex::Motion other = convex_motion(of);
-        box.extend(sampled(
-            shape, [&](double t) { return convex::pose_at(other, t); },
-            longest_way(other, shape.bounds())));
-    }
-    return wider(box, by);
+    return wider(sampled(shape, motion), by);
 }
 
 } // namespace boxwood::detail

@@ -5,11 +5,11 @@
 
 namespace boxwood::detail {
 
-/// The motion as kernels/convex/ has it. Near half a turn it may turn the other way round.
+/// The motion as kernels/convex/ has it.
 convex::Motion convex_motion(const MovingShape& of);
 
-/// A box around a bounded shape, its radius and its margin at every t from 0 to 1, whichever way it
-/// turns near half a turn, and what is nearer than first contacts can tell apart.
+/// A box around a bounded shape, its radius and its margin at every t from 0 to 1, and what is
+/// nearer than first contacts can tell apart.
 Aabb<double> swept_box(const MovingShape& of);
 
 } // namespace boxwood::detail
