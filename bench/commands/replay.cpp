@@ -207,6 +207,11 @@ std::string as_text(const ReplayOptions& options, const RecordedProgram& program
     if (report.outcomes.back().has_shapes)
         checked(report.n_shapes_checked, "triangles of pairs that may touch, or be the nearest",
                 report.n_shapes_too_dear > 0);
+    if (!report.left_out.empty())
+        text += fmt::format("Left out, as they do not come back from such a program (bounds or "
+                            "poses beyond 1e18, SSaP from distances), or need shapes that are "
+                            "not in it: {}.\n",
+                            fmt::join(report.left_out, "; "));
     if (report.n_missed)
         text += fmt::format("THE PROGRAM'S OWN MANAGER MISSED PAIRS in {} of them, first in call "
                             "{}: bounds that overlap were not shown to its callback.\n",

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -58,6 +59,19 @@ TEST(Judging, QueriesThatTheProgramEndedShowAsManyPairs) {
         EXPECT_EQ(outcome.wrong, outcome.name == "silent" ? 4u : 0u) << outcome.name;
     for (const ReplayOutcome& outcome : run_with_silent(program, 0).outcomes)
         EXPECT_EQ(outcome.differ, outcome.name == "silent" ? 4u : 0u) << outcome.name;
+}
+
+TEST(Judging, ProgramsThatReachTooFarAreRunWithWhatComesBackFromThem) {
+    RecordedProgram program = made_program({.bodies = 60, .moved = 1, .frames = 2});
+    for (const double far : {1e300, std::numeric_limits<double>::infinity()}) {
+        program.states[3].bounds = {-far, -far, -far, far, far, 0}; // a half-space
+        const ReplayReport report = run_with_silent(program, 1e9);
+        EXPECT_THAT(report.left_out, testing::Contains("fcl.dynamic_aabb_tree"));
+        ASSERT_EQ(report.outcomes.size(), 2u);
+        EXPECT_EQ(report.outcomes[0].name, "boxwood.fcl_manager");
+        EXPECT_EQ(report.outcomes[0].wrong, 0u);
+        EXPECT_EQ(report.outcomes[1].wrong, 2u);
+    }
 }
 
 TEST(Judging, DistancesThatTheProgramEndedAreNotChecked) {

@@ -89,7 +89,7 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
     const Table requests(file, "requests", recording::requests);
     for (std::size_t row = 0; row < requests.size(); ++row)
         for (std::size_t i = 0; double& number : program.requests.emplace_back())
-            number = requests.whole(row, i++, 0x1p65); // the greatest size_t is 2^64 as a double
+            number = requests.whole(row, i++, 0x1.8p64); // the greatest size_t is 2^64 as a double
     const Table counts(file, "request_counts", recording::request_counts);
     const auto n_calls = static_cast<double>(program.calls.size()),
                n_requests = static_cast<double>(program.requests.size());
@@ -145,6 +145,7 @@ RecordedProgram read_program(const std::filesystem::path& file) {
 
     const Table calls(file, "calls", recording::calls);
     std::size_t object = 0, state = 0;
+    std::vector<char> has_state(program.n_objects(), 0);
     for (std::size_t row = 0; row < calls.size(); ++row) {
         RecordedProgram::Call& call = program.calls.emplace_back();
         call.what = static_cast<recording::Call>(
@@ -157,6 +158,14 @@ RecordedProgram read_program(const std::filesystem::path& file) {
             throw_short(file, "call_objects");
         if (state > program.states.size())
             throw_short(file, "states");
+        for (const RecordedProgram::State& of : program.states_of(call))
+            has_state[of.object] = 1;
+        for (const std::uint32_t added : program.objects_of(call))
+            if (call.what == recording::Call::add && !has_state[added])
+                throw std::runtime_error(
+                    fmt::format("{}: call {} registers object {}, whose bounds are nowhere; the "
+                                "recording is damaged: record again",
+                                file.string(), row, added));
         call.shown = calls.integer(row, 3, 0x1p53);
         call.keys = calls.integer(row, 4, 0x1p52);
         call.ended = calls.number(row, 5) != 0;

@@ -88,8 +88,10 @@ class Rounds {
             if (entry.is_truth)
                 continue;
             std::unique_ptr<Replay> made = entry.make(program);
-            if (!made)
+            if (!made) {
+                report.left_out.push_back(entry.name);
                 continue;
+            }
             replays_.push_back(std::move(made));
             ReplayOutcome& outcome = report.outcomes.emplace_back();
             outcome.name = entry.name;

@@ -67,6 +67,7 @@ struct ReplayReport {
     std::size_t n_queries = 0, n_checked = 0, n_too_dear = 0; ///< for max_tests
     std::size_t n_of_chance = 0; ///< distances that the program ended: the order of pairs decides
     std::size_t n_shapes_checked = 0, n_shapes_too_dear = 0; ///< for max_tests
+    std::vector<std::string> left_out; ///< which its library cannot run this program with
     /// Queries in which the program's own manager showed fewer pairs than overlap.
     std::size_t n_missed = 0, first_missed = 0;
 };

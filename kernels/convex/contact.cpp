@@ -200,7 +200,8 @@ Contacts contacts(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
         });
     });
     if (found.count == 0) {
-        found.points[0] = {(d.point_a + d.point_b) * 0.5, -d.distance};
+        // So far along the normal they surely part: the least it takes may be less.
+        found.points[0] = {(d.point_a + d.point_b) * 0.5, d.distance < 0 ? -d.lo : -d.distance};
         found.count = 1;
     }
     return found;

@@ -290,6 +290,15 @@ TEST(KnownAnswers, FlatAndEmptyShapes) {
     expect_distance(signed_distance(Cylinder{1, 0}, Pose{}, Cylinder{1, 0}, at(3, 0, 0)), 1, 1e-9);
     expect_distance(signed_distance(Capsule{1, 0}, Pose{}, Capsule{0, 3}, at(0, 4, 0)), 3);
     expect_distance(signed_distance(Capsule{0, 1}, Pose{}, Capsule{0, 1}, Pose{}), 0);
+    for (const double by : {.001, .25}) { // a disk, and a rod: nothing is inside
+        expect_distance(signed_distance(Cone{.25, 0}, Pose{}, Sphere{by}, at(1, 0, 0)), .75 - by);
+        expect_distance(signed_distance(Cone{.25, 0}, Pose{}, Sphere{by}, at(.125, 0, 3)), 3 - by);
+        expect_distance(signed_distance(Cone{.25, 0}, Pose{}, Sphere{by}, at(.125, 0, 0)), -by);
+        expect_distance(signed_distance(Cone{0, .5}, Pose{}, Sphere{by}, at(0, 0, 3)), 2.5 - by);
+        expect_distance(signed_distance(Cone{0, .5}, Pose{}, Sphere{by}, at(0, 0, -3)), 2.5 - by);
+        expect_distance(signed_distance(Cone{0, .5}, Pose{}, Sphere{by}, at(2, 0, .25)), 2 - by);
+        expect_distance(signed_distance(Cone{0, .5}, Pose{}, Sphere{by}, at(0, 0, .25)), -by);
+    }
     const std::array<Vec3<double>, 1> one{{{0, 0, 7}}};
     expect_distance(signed_distance(Hull(one), Pose{}, Box{{1, 1, 1}}, Pose{}), 6);
     const std::array<Vec3<double>, 5> twice{

@@ -126,6 +126,13 @@ void Robot::poses(std::span<const double> values, std::span<RigidTransform<doubl
             throw std::invalid_argument("the value of joint '" + value_name(i) + "' is " +
                                         std::to_string(values[i]) + "; it must be finite");
     tree_.forward(values, poses, root);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const Vec3<double>& at = poses[i].translation;
+        if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < 0x1p60))
+            throw std::invalid_argument("link '" + links()[i].name +
+                                        "' lies beyond 2^60: an origin, a limit, a factor of a "
+                                        "mimic joint or a value is too large");
+    }
 }
 
 void Robot::interpolate(std::span<const double> from, std::span<const double> to, double t,

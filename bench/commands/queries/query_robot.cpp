@@ -20,6 +20,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
@@ -55,11 +56,18 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
     const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
-    std::ofstream file(*query.write_srdf, std::ios::binary);
+    // Beside it, and then in its place: it may be the file that --srdf names.
+    const std::string part = *query.write_srdf + ".part";
+    std::ofstream file(part, std::ios::binary);
     file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
     file.close();
-    if (!file)
-        throw BadInput(fmt::format("--write-srdf {}: cannot be written", *query.write_srdf));
+    std::error_code error;
+    if (file)
+        std::filesystem::rename(part, *query.write_srdf, error);
+    if (file && !error)
+        return;
+    std::filesystem::remove(part, error);
+    throw BadInput(fmt::format("--write-srdf {}: cannot be written", *query.write_srdf));
 }
 
 double joint_value(std::string_view item, std::string_view text) {

@@ -116,6 +116,13 @@ TEST_F(QueryRobot, JointsAreSetByName) {
     EXPECT_THAT(answer(), HasSubstr("value,0,bc,1.5\n"));
     EXPECT_THAT(::testing::internal::GetCapturedStderr(),
                 HasSubstr("warning: bc is 1.5, outside its limits -1 to 1\n"));
+    const std::string balls = query_.files.urdf;
+    query_.joints = "";
+    query_.files.urdf = put("far.urdf", "<robot name='far'><link name='a'/><link name='b'/><joint "
+                                        "name='ab' type='fixed'><parent link='a'/><child link='b'/>"
+                                        "<origin xyz='1e30 0 0'/></joint></robot>");
+    EXPECT_THAT(complaint(), HasSubstr("link 'b' lies beyond 2^60"));
+    query_.files.urdf = balls;
     query_.joints = "bc=1e30";
     EXPECT_THAT(complaint(), HasSubstr("bc=1e30 is beyond 2^60"));
     query_.joints = "bd=1";

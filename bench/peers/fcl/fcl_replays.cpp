@@ -34,22 +34,21 @@ using Floats = Managers<float> (*)();
 /// What FCL 0.7 does not come back from.
 enum class Ends : std::uint8_t {
     always,
-    not_far_in_floats, ///< as is_stood_by_floats says
-    without_distances  ///< SSaP looks for ever for what is near its only object
+    where_all_are_near,
+    without_distances ///< SSaP looks for ever for what is near its only object
 };
 bool is_stood(Ends ends, const RecordedProgram& program) {
-    if (ends == Ends::not_far_in_floats && program.bits == 32)
-        return is_stood_by_floats(program);
-    if (ends == Ends::without_distances)
-        return std::ranges::none_of(program.calls, [](const RecordedProgram::Call& call) {
+    if (ends == Ends::without_distances &&
+        std::ranges::any_of(program.calls, [](const RecordedProgram::Call& call) {
             return is_distance(call.what);
-        });
-    return true;
+        }))
+        return false;
+    return ends == Ends::always || are_all_near(program);
 }
 
 /// In the numbers of the program.
 ReplayEntry entry(std::string name, std::string library, std::string summary, Doubles in_doubles,
-                  Floats in_floats, Ends ends = Ends::not_far_in_floats) {
+                  Floats in_floats, Ends ends = Ends::where_all_are_near) {
     const auto make = [=](const RecordedProgram& program) -> std::unique_ptr<Replay> {
         if (!is_stood(ends, program))
             return nullptr;
@@ -66,10 +65,11 @@ ReplayEntry entry(std::string name, std::string library, std::string summary, Do
 } // namespace
 } // namespace by_bounds
 
-bool is_stood_by_floats(const RecordedProgram& program) {
-    constexpr double far = 1e18;
-    return std::ranges::all_of(program.states, [](const RecordedProgram::State& state) {
-        return std::ranges::all_of(state.bounds, [](double x) { return std::abs(x) <= far; });
+bool are_all_near(const RecordedProgram& program) {
+    const auto is_near = [](double x) { return std::abs(x) <= 1e18; };
+    return std::ranges::all_of(program.states, [&](const RecordedProgram::State& state) {
+        return std::ranges::all_of(state.bounds, is_near) &&
+               std::ranges::all_of(state.pose, is_near);
     });
 }
 

@@ -118,7 +118,7 @@ ReplayEntry entry(std::string name, std::string library, const std::string& mana
                   std::unique_ptr<Manager<S>> (*make_manager)()) {
     constexpr bool is_single = std::is_same_v<S, float>;
     const auto make = [make_manager](const RecordedProgram& program) -> std::unique_ptr<Replay> {
-        if (!program.knows_shapes() || (is_single && !is_stood_by_floats(program)))
+        if (!program.knows_shapes() || !are_all_near(program))
             return nullptr;
         return std::make_unique<ShapeReplayer<FclShapes<S>>>(program, make_manager);
     };

@@ -95,6 +95,10 @@ struct Flat {
     const double slant = std::sqrt(s.radius * s.radius + 4 * s.half_length * s.half_length);
     if (!(slant > 0))
         return foot(p, Point{});
+    if (!(s.half_length > 0)) // without an inside what is beside no face may be outside
+        return foot(p, Cylinder{s.radius, 0});
+    if (!(s.radius > 0))
+        return foot(p, Rod{s.half_length});
     const Flat down{s.radius / slant, -2 * s.half_length / slant}, out{-down.z, down.across};
     const double beside = across * out.across + from_apex * out.z;
     const double along = across * down.across + from_apex * down.z;
