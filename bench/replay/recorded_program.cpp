@@ -178,6 +178,22 @@ RecordedProgram read_program(const std::filesystem::path& file) {
     return program;
 }
 
+namespace {
+
+bool are_near(std::span<const double> numbers) {
+    return std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= 1e18; });
+}
+
+} // namespace
+
+bool RecordedProgram::has_near_bounds() const {
+    return std::ranges::all_of(states, [](const State& of) { return are_near(of.bounds); });
+}
+
+bool RecordedProgram::has_near_poses() const {
+    return std::ranges::all_of(states, [](const State& of) { return are_near(of.pose); });
+}
+
 RecordedProgram::Touch most_frequent_touch(const RecordedProgram& program) {
     double without = 0, with = 0;
     std::map<double, double> times; // of those with contacts, by max_contacts

@@ -78,6 +78,10 @@ struct RecordedProgram {
         return std::ranges::none_of(
             geometries, [](const Geometry& of) { return of.shape == recording::Shape::other; });
     }
+    /// Whether all are finite and within 1e18. Trees of FCL and Coal crash on bounds that are not,
+    /// as those of a half-space, and their narrow phases on poses.
+    bool has_near_bounds() const;
+    bool has_near_poses() const;
 };
 
 inline bool is_query(recording::Call call) { return call >= recording::Call::collide_self; }

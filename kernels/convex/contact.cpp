@@ -200,8 +200,7 @@ Contacts contacts(const Shape& a, const Pose& pose_a, const Shape& b, const Pose
         });
     });
     if (found.count == 0) {
-        // So far along the normal they surely part: the least it takes may be less.
-        found.points[0] = {(d.point_a + d.point_b) * 0.5, d.distance < 0 ? -d.lo : -d.distance};
+        found.points[0] = {(d.point_a + d.point_b) * 0.5, d.depth()};
         found.count = 1;
     }
     return found;

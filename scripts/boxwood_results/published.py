@@ -316,7 +316,7 @@ def git(root, *arguments):
 
 def problems(root):
     """What does not fit together, as lines of text; none if all does."""
-    found, machines, commits = [], set(), set()
+    found, machines, commits, of_json = [], set(), set(), {}
     frozen_tracks = tracks(root)
     for sweep in sorted({one.sweep for one in ALL}):
         file = root / "results" / "published" / f"{sweep}.h5"
@@ -343,22 +343,22 @@ def problems(root):
         times = python_times.read(root / PYTHON)
         if len(times.rows) < 14 or any(len(row.ours) < PYTHON_ROUNDS for row in times.rows):
             found.append(f"{root / PYTHON}: it lacks questions or rounds (7 questions of two sizes, {PYTHON_ROUNDS} rounds)")
-    for file, reader in ((PYTHON, python_times.read), (DROPIN, dropin_times.read)):
-        if (root / file).exists():
-            env = reader(root / file).env
-            machines.add(machine_of(env))
-            if file != DROPIN:  # whose lines say their own
-                commits.add(env["git_commit"])
-            if env["git_dirty"]:
-                found.append(f"{root / file}: measured with changes that are in no commit")
+        commits.add(times.env["git_commit"])
+        of_json[PYTHON] = times.env
+    if (root / DROPIN).exists():  # of a commit of its own, which its lines say
+        times = dropin_times.read(root / DROPIN)
+        found += [f"{root / DROPIN}: it lacks {what}" for what in dropin_times.lacks(times)]
+        found += [f"{root / DROPIN}: not measured after commit {commit[:8]} of the sweeps" for commit in commits
+                  if not is_since(root, times.env["git_commit"], commit)]
+        of_json[DROPIN] = times.env
+    for file, env in of_json.items():
+        machines.add(machine_of(env))
+        if env["git_dirty"]:
+            found.append(f"{root / file}: measured with changes that are in no commit")
     machines = {one for one in machines if one[-1] or all(one[:-1] != other[:-1] for other in machines - {one})}
     for what, values in (("one machine", machines), ("one commit", commits)):
         if len(values) > 1:
             found.append(f"results/published: files of more than {what}: {', '.join(map(str, sorted(values)))}")
-    if (root / DROPIN).exists():
-        found += [f"{root / DROPIN}: it lacks {what}" for what in dropin_times.lacks(dropin_times.read(root / DROPIN))]
-        found += [f"{root / DROPIN}: not measured after commit {commit[:8]} of the sweeps" for commit in commits
-                  if not is_since(root, dropin_times.read(root / DROPIN).env["git_commit"], commit)]
     strays = {path.stem for path in (root / "results" / "published").glob("*.h5")} - {one.sweep for one in ALL}
     found += [f"results/published/{name}.h5: no table stands on it" for name in sorted(strays)]
     found += [f"{root / page}: a table differs from its file; scripts/published rewrites it" for page in PAGES

@@ -176,11 +176,10 @@ struct AllTouches {
         const convex::SignedDistance d = shape.measure(placed);
         if (!may_touch && d.lo > margin)
             return false;
-        found.push_back(
-            {0.5 * (d.point_a + d.point_b),
-             d.normal,
-             may_touch ? std::max(0.0, d.distance < 0 ? -d.lo : -d.distance) : -d.distance,
-             {i, 0}});
+        found.push_back({0.5 * (d.point_a + d.point_b),
+                         d.normal,
+                         may_touch ? std::max(0.0, d.depth()) : -d.distance,
+                         {i, 0}});
         return found.size() >= limit;
     }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 namespace boxwood {
+
 Motion::Motion(const Pose& from, const Pose& to, MotionPath kind) : from_(checked_pose(from)) {
     const Pose end = checked_pose(to);
     const AxisAngle turn = turn_between(from_.rotation, end.rotation);

@@ -58,6 +58,11 @@ TEST(Robot, PosesRefuseWrongSizesAndValues) {
             robot.poses(std::vector{0., std::nan(""), 0.}, poses);
         },
         ThrowsMessage<E>(HasSubstr("joint 'swing' is nan")));
+    EXPECT_THAT(
+        [&] {
+            robot.poses(std::vector{0., 1., -0x1p61}, poses);
+        },
+        ThrowsMessage<E>(HasSubstr("link 'finger' lies beyond 2^60")));
     poses.pop_back();
     EXPECT_THROW(robot.poses(robot.rest(), poses), E);
 }

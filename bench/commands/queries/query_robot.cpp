@@ -56,18 +56,18 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
     const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
-    // Beside it, and then in its place: it may be the file that --srdf names.
-    const std::string part = *query.write_srdf + ".part";
-    std::ofstream file(part, std::ios::binary);
+    // A plain file is replaced as a whole, as it may be the one that --srdf names; a pipe is not.
+    const std::filesystem::file_status there = std::filesystem::symlink_status(*query.write_srdf);
+    const bool replaces = is_regular_file(there);
+    const std::string written = *query.write_srdf + (replaces ? ".part" : "");
+    std::ofstream file(written, std::ios::binary);
     file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
     file.close();
     std::error_code error;
-    if (file)
-        std::filesystem::rename(part, *query.write_srdf, error);
-    if (file && !error)
-        return;
-    std::filesystem::remove(part, error);
-    throw BadInput(fmt::format("--write-srdf {}: cannot be written", *query.write_srdf));
+    if (file && replaces)
+        std::filesystem::rename(written, *query.write_srdf, error);
+    if (!file || error)
+        throw BadInput(fmt::format("--write-srdf {}: cannot be written", written));
 }
 
 double joint_value(std::string_view item, std::string_view text) {

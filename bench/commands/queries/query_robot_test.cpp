@@ -116,13 +116,6 @@ TEST_F(QueryRobot, JointsAreSetByName) {
     EXPECT_THAT(answer(), HasSubstr("value,0,bc,1.5\n"));
     EXPECT_THAT(::testing::internal::GetCapturedStderr(),
                 HasSubstr("warning: bc is 1.5, outside its limits -1 to 1\n"));
-    const std::string balls = query_.files.urdf;
-    query_.joints = "";
-    query_.files.urdf = put("far.urdf", "<robot name='far'><link name='a'/><link name='b'/><joint "
-                                        "name='ab' type='fixed'><parent link='a'/><child link='b'/>"
-                                        "<origin xyz='1e30 0 0'/></joint></robot>");
-    EXPECT_THAT(complaint(), HasSubstr("link 'b' lies beyond 2^60"));
-    query_.files.urdf = balls;
     query_.joints = "bc=1e30";
     EXPECT_THAT(complaint(), HasSubstr("bc=1e30 is beyond 2^60"));
     query_.joints = "bd=1";
@@ -246,6 +239,17 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
                                     "none of 200 samples, seed 1\"}"));
     query_.write_srdf = "/nonexistent/out.srdf";
     EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
+    const std::string full = (folder_ / "full.srdf").string(); // a link to a full disk stays one
+    std::filesystem::create_symlink("/dev/full", full);
+    query_.write_srdf = full;
+    EXPECT_THAT(complaint(), HasSubstr("full.srdf: cannot be written"));
+    EXPECT_TRUE(std::filesystem::is_symlink(full));
+    const std::string kept = *query_.files.srdf; // with no place for what would replace it
+    std::filesystem::create_directory(kept + ".part");
+    query_.write_srdf = kept;
+    EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
+    query_.write_srdf.reset();
+    EXPECT_THAT(answer(), HasSubstr("none of 200 samples"));
 }
 
 TEST_F(QueryRobot, BadFilesAreBadInput) {

@@ -248,7 +248,8 @@ bool have_volume(const RecordedProgram& program) {
 ReplayEntry replay(std::string name, std::string library, std::string summary,
                    std::optional<CoalManager> kind, bool with_shapes = false) {
     const auto make = [=](const RecordedProgram& program) -> std::unique_ptr<Replay> {
-        if ((kind && !have_volume(program)) || (with_shapes && !program.knows_shapes()))
+        if ((kind && !(have_volume(program) && program.has_near_bounds())) ||
+            (with_shapes && !(program.knows_shapes() && program.has_near_poses())))
             return nullptr;
         return module().replay(program, kind, with_shapes);
     };

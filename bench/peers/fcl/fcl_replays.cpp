@@ -8,7 +8,6 @@
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree_array.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -34,7 +33,7 @@ using Floats = Managers<float> (*)();
 /// What FCL 0.7 does not come back from.
 enum class Ends : std::uint8_t {
     always,
-    where_all_are_near,
+    where_bounds_are_near,
     without_distances ///< SSaP looks for ever for what is near its only object
 };
 bool is_stood(Ends ends, const RecordedProgram& program) {
@@ -43,12 +42,12 @@ bool is_stood(Ends ends, const RecordedProgram& program) {
             return is_distance(call.what);
         }))
         return false;
-    return ends == Ends::always || are_all_near(program);
+    return ends == Ends::always || program.has_near_bounds();
 }
 
 /// In the numbers of the program.
 ReplayEntry entry(std::string name, std::string library, std::string summary, Doubles in_doubles,
-                  Floats in_floats, Ends ends = Ends::where_all_are_near) {
+                  Floats in_floats, Ends ends = Ends::where_bounds_are_near) {
     const auto make = [=](const RecordedProgram& program) -> std::unique_ptr<Replay> {
         if (!is_stood(ends, program))
             return nullptr;
@@ -64,14 +63,6 @@ ReplayEntry entry(std::string name, std::string library, std::string summary, Do
 
 } // namespace
 } // namespace by_bounds
-
-bool are_all_near(const RecordedProgram& program) {
-    const auto is_near = [](double x) { return std::abs(x) <= 1e18; };
-    return std::ranges::all_of(program.states, [&](const RecordedProgram::State& state) {
-        return std::ranges::all_of(state.bounds, is_near) &&
-               std::ranges::all_of(state.pose, is_near);
-    });
-}
 
 std::vector<ReplayEntry> fcl_replays() {
     using by_bounds::entry, by_bounds::plain, by_bounds::tree, by_bounds::Ends;

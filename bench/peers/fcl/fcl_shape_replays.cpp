@@ -117,8 +117,10 @@ template <class S>
 ReplayEntry entry(std::string name, std::string library, const std::string& manager,
                   std::unique_ptr<Manager<S>> (*make_manager)()) {
     constexpr bool is_single = std::is_same_v<S, float>;
-    const auto make = [make_manager](const RecordedProgram& program) -> std::unique_ptr<Replay> {
-        if (!program.knows_shapes() || !are_all_near(program))
+    const bool is_fcls = library == "fcl";
+    const auto make = [=](const RecordedProgram& program) -> std::unique_ptr<Replay> {
+        if (!program.knows_shapes() || !program.has_near_poses() ||
+            ((is_fcls || is_single) && !program.has_near_bounds()))
             return nullptr;
         return std::make_unique<ShapeReplayer<FclShapes<S>>>(program, make_manager);
     };

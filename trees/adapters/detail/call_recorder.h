@@ -197,8 +197,8 @@ template <class Library> class CallRecorder {
                     row.is_certain &= follow(*object, row);
         if (call != recording::Call::update_all)
             for (const Object* object : objects)
-                if (known_.contains(object))
-                    row.objects.push_back(known_.at(object).number);
+                if (const auto known = known_.find(object); known != known_.end())
+                    row.objects.push_back(known->second.number);
         if (call == recording::Call::remove || call == recording::Call::clear)
             forget(call, objects);
         return pending_.insert(pending_.end(), std::move(row));
