@@ -114,6 +114,8 @@ def lacks(times):
     found = [f"the program of {bodies:,} {'meshes' if are_meshes else 'bodies'} of which {moved:.0%} move"
              for are_meshes, programs in ((False, FRAMES), (True, MESH_FRAMES)) for bodies in programs for moved in MOVED
              if (bodies, moved, are_meshes) not in there]
+    found += [f"{wanted} frames of the program of {run.bodies:,} {'meshes' if run.triangles else 'bodies'}, which has {run.frames}"
+              for run in times.runs if (wanted := (MESH_FRAMES if run.triangles else FRAMES).get(run.bodies, run.frames)) != run.frames]
     return found + [f"{name} with {run.bodies:,} bodies" for run in times.runs for name in run.missing()]
 
 

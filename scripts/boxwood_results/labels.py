@@ -50,11 +50,17 @@ def held(box, points):
     return np.count_nonzero((x >= box.x0) & (x <= box.x1) & (y >= box.y0) & (y <= box.y1))
 
 
+def apart(box, x, y):
+    """How far a point is from a box."""
+    return math.hypot(max(box.x0 - x, 0, x - box.x1), max(box.y0 - y, 0, y - box.y1))
+
+
 def beside_points(ax, labels, later=(), lines=()):
     """labels: [(x, y, text, colour)] in data units; later: more of them that choose last; lines: what is
     drawn besides, as [(x, y), ...] each. Each label goes to the nearest free place within the axes, with a
-    thin line to its point unless it is right beside it. Those in a crowd choose first; texts keep clear of
-    other texts, points and lines as far as there is room, and thin lines of texts and points."""
+    thin line to its point unless it is right beside it and clearly beside no other. Those in a crowd choose
+    first; texts keep clear of other texts, points and lines as far as there is room, and thin lines of texts
+    and points."""
     figure = ax.figure
     pixels = figure.dpi / 72
     frame = ax.get_window_extent()
@@ -89,7 +95,9 @@ def beside_points(ax, labels, later=(), lines=()):
                 best, least = (ring, box), cost
         ring, box = best
         taken.append(box)
-        if ring > RINGS[1]:
+        others = [mark for place, mark in enumerate(marks) if place != index]
+        is_joined = ring > RINGS[1] or any(apart(box, *mark) < 1.5 * apart(box, at_x, at_y) for mark in others)
+        if is_joined:
             ends = (at_x, at_y), ((box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2)
             drawn += [step for step in along(*ends, 4 * pixels) if not box.contains(*step)]
         ax.annotate(
@@ -103,7 +111,7 @@ def beside_points(ax, labels, later=(), lines=()):
             zorder=7,
             annotation_clip=False,
             arrowprops=None
-            if ring <= RINGS[1]
+            if not is_joined
             else {"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3},
         )
 

@@ -295,8 +295,9 @@ def faults(file, run, on_device=False):
     if not sweep_text(run):
         found.append("it does not hold the sweep that made it")
     sweep = tomllib.loads(sweep_text(run))
-    if run.rounds < sweep.get("rounds", 0) and not on_device:
-        found.append(f"{run.rounds} rounds; its sweep asks for {sweep['rounds']}")
+    wanted = max(sweep.get("rounds", 0), recomputed.MIN_ROUNDS_OF_VERDICT)
+    if run.rounds < wanted and not on_device:
+        found.append(f"{run.rounds} rounds; {wanted} are wanted, by its sweep or for a verdict")
     inputs = sweep.get("inputs", 1)
     if inputs > 1 and run.rounds < ROUNDS_OF_AN_INPUT * inputs:
         found.append(f"{run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
@@ -311,7 +312,10 @@ def is_since(root, commit, earlier):
 
 
 def git(root, *arguments):
-    return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True, check=False)
+    try:
+        return subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True, check=False)
+    except FileNotFoundError:  # there is no git
+        return subprocess.CompletedProcess(arguments, 1, "", "")
 
 
 def problems(root):

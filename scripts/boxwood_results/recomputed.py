@@ -1,12 +1,13 @@
 """What a file says, held against its own samples: a second way to the numbers of bench/analysis, in another language."""
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from statistics import median
 
 from .run import AA_TWIN, WHOLE_QUERY
 
 SUMS = {"build+query": ("build", "query"), "update+query": ("update", "query")}
+MIN_ROUNDS_OF_VERDICT = 9
 MIN_ROUNDS_OF_INPUT = 3  # fewer have no median that one disturbed round leaves alone
 NEAR = 1e-5  # of what is stored and what is computed
 
@@ -60,6 +61,7 @@ def is_near(a, b):
 
 
 DECIDED = ("faster", "slower")
+ERROR = 0.05  # of all claims of a task together
 OF_THE_INTERVAL = ("too_noisy", "below_the_floor", "crosses_1")
 
 
@@ -69,6 +71,28 @@ def is_held(row, verdict):
     held = near_end if floor > row["delta"] else row["ratio"]
     beyond_1 = near_end < 1 if verdict == "faster" else near_end > 1
     return beyond_1 and not (floor >= 0 and 1 / (1 + floor) <= held <= 1 + floor)
+
+
+def is_same(row):
+    """Whether all of the interval is within delta of 1, and the noise floor, where it is known, no higher."""
+    return all(1 / (1 + row["delta"]) <= row[end] <= 1 + row["delta"] for end in ("ci_lo", "ci_hi")) and not row["floor"] > row["delta"]
+
+
+def has_enough(row, n_claims):
+    """Whether so many rounds have an interval even at the level that a claim has if it is the only clear one of its task."""
+    return row["n_pairs"] >= MIN_ROUNDS_OF_VERDICT and 2 * n_claims / 2 ** int(row["n_pairs"]) <= ERROR
+
+
+def unlike_its_interval(row, n_claims):
+    """What is wrong with a verdict, in words; empty if its interval and the noise floor say the same."""
+    verdict, reason = row["verdict"], row["reason"]
+    if (verdict in DECIDED and not is_held(row, verdict)) or (verdict == "same" and not is_same(row)):
+        return f"called {verdict}, and its interval or the noise floor does not"
+    if verdict == "cannot_tell" and reason in OF_THE_INTERVAL and any(is_held(row, one) for one in DECIDED):
+        return f"called open ({reason}), and its interval and the noise floor decide it"
+    if verdict == "cannot_tell" and reason == "too_few_rounds" and has_enough(row, n_claims):
+        return f"called open ({reason}), and {row['n_pairs']} are enough"
+    return ""
 
 
 def differences(source):
@@ -164,6 +188,8 @@ def device_gains(source, times):
 def medians_and_ratios(source, times):
     machine = {row["env_id"]: row["env_hash"] for row in source["env"]}
     input_of = {(machine[row["env_id"]], row["round"]): row["input"] for row in source["shards"]}
+    task_of = {row["cell_id"]: row["task"] for row in source["cells"]}
+    claims = Counter((row["family"], task_of[row["cell_b"]]) for row in source["compare"])
     found = []
     for row in source["medians"]:
         values = [ns for of_round in times.get((row["cell_id"], row["phase"]), {}).values() for ns in of_round]
@@ -182,8 +208,6 @@ def medians_and_ratios(source, times):
                 is_near(math.exp(lo), row["ci_lo"]) and is_near(math.exp(hi), row["ci_hi"])
                 for lo, hi in intervals(logs, [input_of[key] for key, _ in both])):
             found.append(f"{name}: not an interval of its samples")
-        elif row["verdict"] in DECIDED and not is_held(row, row["verdict"]):
-            found.append(f"{name}: called {row['verdict']}, and its interval or the noise floor does not")
-        elif row["verdict"] == "cannot_tell" and row["reason"] in OF_THE_INTERVAL and any(is_held(row, verdict) for verdict in DECIDED):
-            found.append(f"{name}: called open ({row['reason']}), and its interval and the noise floor decide it")
+        elif unlike := unlike_its_interval(row, claims[row["family"], task_of[row["cell_b"]]]):
+            found.append(f"{name}: {unlike}")
     return found

@@ -220,6 +220,17 @@ def test_a_loss_that_is_called_open_is_said(root):
     assert any("called open (too_noisy), and its interval and the noise floor decide it" in line for line in published.problems(root))
 
 
+def test_what_differs_is_not_called_the_same_nor_enough_rounds_too_few():
+    row = {"ratio": 2, "ci_lo": 1.8, "ci_hi": 2.2, "floor": 0.1, "delta": 0.05, "n_pairs": 10, "verdict": "same", "reason": "none"}
+    assert "called same" in recomputed.unlike_its_interval(row, 1)
+    near = row | {"ci_lo": 0.97, "ci_hi": 1.03, "floor": 0.04}
+    assert not recomputed.unlike_its_interval(near, 1)
+    assert "called same" in recomputed.unlike_its_interval(near | {"floor": 0.1}, 1)
+    few = row | {"verdict": "cannot_tell", "reason": "too_few_rounds"}
+    assert "10 are enough" in recomputed.unlike_its_interval(few, 25)
+    assert not recomputed.unlike_its_interval(few, 26) and not recomputed.unlike_its_interval(few | {"n_pairs": 8}, 1)
+
+
 def test_a_file_without_its_seal_is_said(root):
     file = file_of(root, "effects", synthetic.full(wrong=False))
     published.freeze(root)

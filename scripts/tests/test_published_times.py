@@ -1,5 +1,6 @@
 """What no sweep measures, and is published all the same: Python's module and the drop-in, of JSON files."""
 
+import dataclasses
 import subprocess
 
 import pytest
@@ -98,6 +99,8 @@ def test_what_the_drop_in_was_not_held_against_is_said():
     bounds, meshes = times.runs[0], times.runs[-1]
     bounds.managers[:] = [row for row in bounds.managers if "morton" not in row["manager"]]
     assert len(dropin_times.lacks(times)) == 4 and "fcl.dynamic_aabb_tree.morton with 1,000 bodies" in dropin_times.lacks(times)
+    times.runs[0] = dataclasses.replace(bounds, frames=1)
+    assert "50 frames of the program of 1,000 bodies, which has 1" in dropin_times.lacks(times)
     times.runs.remove(meshes)
     assert "the program of 10,000 meshes of which 1% move" in dropin_times.lacks(times)
 
