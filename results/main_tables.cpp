@@ -169,7 +169,9 @@ std::vector<Table> main_tables() {
              {"other_cores", &Shard::other_cores, "",
               "processors at work for others just before it began", 0, false, minor_3},
              {"input", &Shard::input, "",
-              "of a sweep of several: its scenes have their seed plus this", 0, false, minor_3},
+              "of a sweep of several: scenes at rest that are made from a seed have their seed "
+              "plus this",
+              0, false, minor_3},
              {"gpu_copy_gbs", &Shard::gpu_copy_gbs, "GB/s", "within the device's memory", 0, false,
               minor_1},
              {"gpu_upload_gbs", &Shard::gpu_upload_gbs, "GB/s", "from pinned memory", 0, false,

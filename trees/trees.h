@@ -81,6 +81,7 @@
 #include "trees/world/bodies/body_shape.h"
 #include "trees/world/bodies/ledger.h"
 #include "trees/world/bodies/robot_bodies.h"
+#include "trees/world/bodies/robot_meshes.h"
 #include "trees/world/bodies/shape_pairs.h"
 #include "trees/world/bodies/world.h"
 #include "trees/world/box_mesh.h"
@@ -95,5 +96,4 @@
 #include "trees/world/propose_pairs.h"
 #include "trees/world/robot.h"
 #include "trees/world/robot_collision.h"
-#include "trees/world/robot_meshes.h"
 #include "trees/world/solid.h"

@@ -4,6 +4,7 @@
 #include "bench/analysis/kernel_costs.h"
 #include "bench/analysis/promises.h"
 #include "bench/commands/command.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/machine/environment.h"
 #include "bench/truth/judging/case_truths.h"
 
@@ -11,7 +12,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <limits>
 #include <memory>
 
 namespace boxwood::bench {
@@ -74,9 +74,7 @@ void add_check(CLI::App& app, int& exit_code) {
     check->add_option("--out", *out, "a result file to write (HDF5), for scripts/plot");
     check->add_option("--n", *n, "cases of each family (1000; with --quick 300)")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    check->add_option("--seed", options->seed, "key of the random numbers")
-        ->check(
-            CLI::Range(std::uint64_t{0}, std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
+    check->add_option("--seed", options->seed, "key of the random numbers")->check(seed_range());
     check->add_option("--k", options->k, "the families' own parameter (`boxwood list families`)");
     check->add_option(
         "--scale", options->scale,

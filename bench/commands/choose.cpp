@@ -2,6 +2,7 @@
 #include "bench/advice/candidates.h"
 #include "bench/advice/policies.h"
 #include "bench/commands/command.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
 #include "bench/running/sweep.h"
@@ -372,7 +373,7 @@ void add_choose(CLI::App& app, int& exit_code) {
     command->add_option("--task", options->task,
                         tasks + ", moving (the pairs of each frame); by what is given if not said");
     command->add_option("--minutes", options->minutes, "how long it may take, about")
-        ->check(CLI::Range(0.2, 600.))
+        ->check(number_range(0.2, 600))
         ->capture_default_str();
     command->add_option("--queries", options->queries,
                         "how many queries (rays, ...) you make of one tree before you build it "

@@ -17,6 +17,7 @@
 namespace boxwood::bench {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
@@ -182,6 +183,13 @@ TEST(Doctor, LooksAtAMesh) {
     EXPECT_THAT(doctor_of_mesh(load_mesh(good), "b.obj", false),
                 HasSubstr("It is closed: it may be a solid"));
     EXPECT_THROW(write_good_triangles(mesh, good.string()), BadInput);
+    TriangleMesh large = load_mesh(good);
+    large.vertices[large.triangles[2][0]].x = 0x1p60f;
+    EXPECT_THAT(doctor_of_mesh(large, "c.obj", true),
+                AllOf(HasSubstr("\"too_large\":3,"), HasSubstr("\"is_clean\":false}")));
+    EXPECT_THAT(doctor_of_mesh(large, "c.obj", false),
+                AllOf(HasSubstr("beyond 2^60        3 (the first: triangle 0)"),
+                      HasSubstr("another unit")));
     std::filesystem::remove(good);
     std::filesystem::remove(file);
 }

@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/devices.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/io/bad_input.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
@@ -175,7 +176,8 @@ void add_plan(CLI::App& app, int&) {
         ->required();
     plan->add_option("--n", options->n, "number of bodies instead of the scene's")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    plan->add_option("--seed", options->seed, "the seed instead of the scene's");
+    plan->add_option("--seed", options->seed, "the seed instead of the scene's")
+        ->check(seed_range());
     CLI::Option* all_stages = plan->add_flag(
         "--all-stages", options->all_stages,
         "the plan with all stages: those that run though the scene does not require them");

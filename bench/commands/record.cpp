@@ -76,13 +76,16 @@ int status_of(pid_t child) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-void say_what_is_in(const fs::path& file) {
+/// False if it cannot be read: the disk was full, say.
+bool say_what_is_in(const fs::path& file) {
     try {
         const RecordedProgram program = read_program(file);
         fmt::print(stderr, "{}: {} calls, {} objects; boxwood replay {}\n", file.string(),
                    program.calls.size(), program.n_objects(), file.string());
+        return true;
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}\n", error.what());
+        return false;
     }
 }
 
@@ -107,10 +110,13 @@ int run(const RecordOptions& options) {
     }
     const int status = status_of(child);
     const std::vector<fs::path> files = recordings(options.file);
+    bool are_whole = true;
     for (const fs::path& file : files)
-        say_what_is_in(file);
-    if (!files.empty() || status != exit_success)
+        are_whole &= say_what_is_in(file);
+    if (status != exit_success)
         return status;
+    if (!files.empty())
+        return are_whole ? exit_success : exit_failed;
     fmt::print(
         stderr,
         "boxwood record: {} called no manager of FCL's shared library in doubles. In floats, "
@@ -146,7 +152,8 @@ void add_record(CLI::App& app, int& exit_code) {
         "No Python modules that bring an FCL or HDF5 of their own.\n"
         "Examples:\n  boxwood record ./my_planner --scene kitchen.yaml\n"
         "  boxwood record --out kitchen.h5 ./my_planner\n  boxwood replay kitchen.h5\n"
-        "Exit codes: the program's; 1 if nothing was recorded, 2 bad usage, 127 no such program.");
+        "Exit codes: the program's; 1 if nothing was recorded, or it cannot be "
+        "read,\n2 bad usage, 127 no such program.");
     command->callback([command, options, &exit_code] {
         options->program = command->remaining();
         exit_code = run(*options);

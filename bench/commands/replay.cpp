@@ -1,6 +1,7 @@
 #include "bench/replay/replay.h"
 #include "bench/analysis/statistics.h"
 #include "bench/commands/command.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/io/json.h"
 #include "bench/io/pattern.h"
 #include "bench/io/progress.h"
@@ -209,7 +210,8 @@ std::string as_text(const ReplayOptions& options, const RecordedProgram& program
                 report.n_shapes_too_dear > 0);
     if (!report.left_out.empty())
         text += fmt::format("Left out, as they do not come back from such a program (bounds or "
-                            "poses beyond 1e18, SSaP from distances), or need shapes that are "
+                            "poses beyond 1e18, SSaP from distances, Coal from bounds without "
+                            "volume), or need shapes that are "
                             "not in it: {}.\n",
                             fmt::join(report.left_out, "; "));
     if (report.n_missed)
@@ -327,7 +329,7 @@ void add_replay(CLI::App& app, int& exit_code) {
     command
         ->add_option("--moved", options->made.moved,
                      "of a made program: the share of bodies that move in a frame")
-        ->check(CLI::Range(0., 1.))
+        ->check(number_range(0, 1))
         ->excludes(file)
         ->capture_default_str();
     command

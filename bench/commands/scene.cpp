@@ -1,4 +1,5 @@
 #include "bench/commands/command.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/io/say.h"
 #include "bench/io/scene_picture.h"
 #include "scenes/moving/moving_scene.h"
@@ -141,7 +142,8 @@ void add_scene(CLI::App& app, int&) {
         ->check(CLI::Range(0, 64));
     scene->add_option("--n", options->n, "number of bodies instead of the scene's")
         ->check(CLI::Range(std::size_t{1}, std::size_t{100'000'000}));
-    scene->add_option("--seed", options->seed, "the seed instead of the scene's");
+    scene->add_option("--seed", options->seed, "the seed instead of the scene's")
+        ->check(seed_range());
     scene->footer(
         "The built-in scenes: `boxwood list moving_scenes`; the effects for a scene of your own:\n"
         "`boxwood list effects`.\n"

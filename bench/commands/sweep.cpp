@@ -3,6 +3,7 @@
 #include "bench/commands/against.h"
 #include "bench/commands/command.h"
 #include "bench/commands/compare.h"
+#include "bench/commands/option_ranges.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include <charconv>
 #include <cstdint>
 #include <fstream>
-#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -58,8 +58,7 @@ void add_plan_options(CLI::App& command, std::filesystem::path& config, Override
     command.add_option("--only", overrides.only,
                        "only cells whose name this regular expression is found in");
     command.add_option("--seed", overrides.seed, "seed of scenes and shuffling")
-        ->check(
-            CLI::Range(std::uint64_t{0}, std::uint64_t{std::numeric_limits<std::int64_t>::max()}));
+        ->check(seed_range());
 }
 
 /// "0/2" -> 0 of 2.

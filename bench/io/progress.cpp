@@ -37,11 +37,23 @@ std::string bar_line(const Moment& moment, std::size_t width) {
     return line.substr(0, width);
 }
 
-Progress::Progress(std::FILE* out) : out_(out), is_terminal_(isatty(fileno(out)) == 1) {}
+std::string log_line(const Moment& moment) {
+    std::string line =
+        fmt::format("{}: {:.0f} %", moment.stage, 100 * std::clamp(moment.fraction, 0.0, 1.0));
+    if (moment.left_s >= 0)
+        line += fmt::format(", {} left", duration_text(moment.left_s));
+    return moment.cell.empty() ? line : fmt::format("{}, {}", line, moment.cell);
+}
+
+Progress::Progress(std::FILE* out, std::chrono::seconds pause)
+    : out_(out), is_terminal_(isatty(fileno(out)) == 1), pause_(pause) {}
 
 void Progress::show(const Moment& moment) {
-    if (!is_terminal_)
+    if (!is_terminal_) {
+        if (std::chrono::steady_clock::now() - said_ >= pause_)
+            say(log_line(moment));
         return;
+    }
     winsize size{};
     const bool known = ioctl(fileno(out_), TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
     write("\r\x1b[K" + bar_line(moment, known ? size.ws_col - 1u : 79u));
@@ -53,6 +65,7 @@ void Progress::say(const std::string& line) {
     clear();
     write(fmt::format("{}\n", line));
     std::fflush(out_);
+    said_ = std::chrono::steady_clock::now();
 }
 
 void Progress::clear() {

@@ -38,10 +38,14 @@ struct Moment {
 /// One line of at most `width` columns, cut at the end of the cell's name.
 std::string bar_line(const Moment& moment, std::size_t width);
 
-/// A bar on a terminal; on anything else only what `say` is given.
+/// The same for a log: "preparing: 12 %, 45 s left, uniform/n1000".
+std::string log_line(const Moment& moment);
+
+/// A bar on a terminal. On anything else what `say` is given, and a line for a log after each
+/// `pause` without one.
 class Progress {
   public:
-    explicit Progress(std::FILE* out);
+    explicit Progress(std::FILE* out, std::chrono::seconds pause = std::chrono::seconds(30));
     ~Progress() { clear(); }
     Progress(const Progress&) = delete;
 
@@ -57,6 +61,8 @@ class Progress {
 
     std::FILE* out_;
     bool is_terminal_, drawn_ = false;
+    std::chrono::seconds pause_;
+    std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();
 };
 
 } // namespace boxwood::bench

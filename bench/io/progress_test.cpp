@@ -35,6 +35,21 @@ TEST(Bar, ShowsStageTimeLeftAndCellWithinTheWidth) {
                 testing::HasSubstr("[####################] 100 %  preparing  c"));
 }
 
+TEST(Progress, SaysNowAndThenInALogHowFarItIs) {
+    EXPECT_EQ(log_line({"checking", 0.256, 61, "slivers"}),
+              "checking: 26 %, 1 min 1 s left, slivers");
+    EXPECT_EQ(log_line({"checking", 1.5, -1, ""}), "checking: 100 %");
+    std::FILE* file = std::tmpfile();
+    ASSERT_TRUE(file);
+    Progress(file, std::chrono::seconds(0)).show({"checking", 0.5, 2, "slivers"});
+    Progress(file).show({"checking", 0.6, 2, "slivers"}); // not yet
+    std::rewind(file);
+    char text[100] = {};
+    EXPECT_GT(std::fread(text, 1, sizeof text - 1, file), 0u);
+    EXPECT_STREQ(text, "checking: 50 %, 2 s left, slivers\n");
+    std::fclose(file);
+}
+
 TEST(Progress, WritesOnlyWholeLinesToAFile) {
     std::FILE* file = std::tmpfile();
     ASSERT_TRUE(file);

@@ -100,11 +100,21 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
              counts.whole(row, 2, 0x1p53), counts.number(row, 3)});
 }
 
+Table format_of(const std::filesystem::path& file) try {
+    return {file, "format", recording::format};
+} catch (const std::runtime_error& error) {
+    if (!results::is_hdf5(file))
+        throw;
+    throw std::runtime_error(fmt::format("{}; `boxwood record` and recorders write recordings, "
+                                         "result files are for `boxwood show`",
+                                         error.what()));
+}
+
 } // namespace
 
 RecordedProgram read_program(const std::filesystem::path& file) {
     RecordedProgram program;
-    const Table format(file, "format", recording::format);
+    const Table format = format_of(file);
     const double version = format.size() == 1 ? format.number(0, 0) : 0;
     if (version != 1 && version != recording::version)
         throw std::runtime_error(

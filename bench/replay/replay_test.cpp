@@ -152,15 +152,14 @@ TEST_F(Replays, AProgramRunsAgainWithEveryManager) {
         const ReplayReport report = run(program);
         EXPECT_EQ(report.n_queries, 22u * 7u);
         EXPECT_EQ(report.n_checked + report.n_of_chance, report.n_queries);
+        EXPECT_LE(report.n_of_chance, 22u * 3u); // distances alone
         EXPECT_EQ(report.n_missed, 0u);
         ASSERT_EQ(report.outcomes.size(), 9u); // not SSaP, as there are distance queries
         EXPECT_TRUE(report.outcomes.back().has_shapes);
         EXPECT_EQ(report.outcomes[0].name, "boxwood.fcl_manager");
         EXPECT_THAT(report.outcomes, Each(Field(&ReplayOutcome::wrong, 0u)));
-        for (const ReplayOutcome& outcome : report.outcomes) {
-            ASSERT_EQ(outcome.total_ns.size(), 2u);
-            EXPECT_GT(outcome.total_ns[1], 0);
-        }
+        for (const ReplayOutcome& outcome : report.outcomes)
+            EXPECT_THAT(outcome.total_ns, testing::ElementsAre(testing::Gt(0), testing::Gt(0)));
     }
 }
 

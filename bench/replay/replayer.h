@@ -154,7 +154,7 @@ template <class Api> class Replayer final : public Replay {
     using Noted = std::vector<std::pair<const Object*, const Object*>>;
     /// A callback that takes note of pairs. They are looked at outside the clock: else that would
     /// be most of what a query of 100,000 bodies takes. A query that the program ended ends at as
-    /// many pairs that overlap.
+    /// many pairs that overlap, which are counted within the clock.
     class Seen {
       public:
         Seen(Noted& noted, std::uint64_t enough) : noted_(noted), enough_(enough) {

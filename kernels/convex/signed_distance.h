@@ -20,7 +20,7 @@ struct SignedDistance {
     Vec3<double> normal{0, 0, 1};
 
     /// So far along the normal the two surely part; below 0 where they are apart.
-    double depth() const { return distance < 0 ? -lo : -distance; }
+    double depth() const { return distance <= 0 ? -lo : -distance; }
 };
 
 /// How wide hi - lo may be: the search ends when it is at most relative * |distance| + absolute,

@@ -3,6 +3,7 @@
 
 #include "scenes/robots/urdf_scan.h"
 
+#include "kernels/primitives/coordinate_limit.h"
 #include "kernels/suggest.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 namespace boxwood {
@@ -76,8 +78,24 @@ class UrdfScanner {
                    : static_cast<std::uint32_t>(reader_.index(of, attribute, what, all.names));
     }
 
+    void require_range(const Element& of, const char* attribute, double number) const {
+        if (!(std::abs(number) < coordinate_limit))
+            reader_.fail(of, fmt::format("<{} {}=...>: {} is beyond 2^60; lengths are in metres",
+                                         of.Name(), attribute, number));
+    }
+
+    Vec3<double> lengths(const Element& of, const char* attribute,
+                         std::optional<Vec3<double>> fallback = {}) const {
+        const Vec3<double> v =
+            fallback ? reader_.vector(of, attribute, *fallback) : reader_.vector(of, attribute);
+        for (const double number : {v.x, v.y, v.z})
+            require_range(of, attribute, number);
+        return v;
+    }
+
     double size(const Element& of, const char* attribute) const {
         const double number = reader_.number(of, attribute);
+        require_range(of, attribute, number);
         if (number < 0)
             reader_.fail(of, fmt::format("<{} {}=\"{}\">: it must not be negative", of.Name(),
                                          attribute, number));
@@ -89,12 +107,12 @@ class UrdfScanner {
         if (!origin)
             return {};
         return fmt::format("<origin xyz=\"{}\" rpy=\"{}\"/>",
-                           plain_vector(reader_.vector(*origin, "xyz", {})),
+                           plain_vector(lengths(*origin, "xyz", Vec3<double>{})),
                            plain_vector(reader_.vector(*origin, "rpy", {})));
     }
 
     LinkMesh mesh(const Element& shape, std::size_t link) {
-        const Vec3<double> scale = reader_.vector(shape, "scale", {1, 1, 1});
+        const Vec3<double> scale = lengths(shape, "scale", Vec3<double>{1, 1, 1});
         if (scale.x == 0 || scale.y == 0 || scale.z == 0)
             reader_.fail(shape, "<mesh scale=...>: 0 makes the mesh flat; 1 1 1 keeps its size");
         scan_.meshes.push_back(
@@ -108,7 +126,7 @@ class UrdfScanner {
         if (kind == "mesh")
             return {mesh(e, link), "<sphere radius=\"0\"/>"};
         if (kind == "box") {
-            const Vec3<double> sides = reader_.vector(e, "size");
+            const Vec3<double> sides = lengths(e, "size");
             if (std::min({sides.x, sides.y, sides.z}) < 0)
                 reader_.fail(e, "<box size=...>: a side must not be negative");
             return {LinkBox{}, fmt::format("<box size=\"{}\"/>", plain_vector(sides))};

@@ -182,6 +182,10 @@ TEST(Urdf, ErrorsNameTheLineAndTheWayOut) {
     EXPECT_THAT(with("radius=\"0.05\"", ""), HasSubstr("<sphere> needs an attribute radius"));
     EXPECT_THAT(with("radius=\"0.05\"", "radius=\"1 2\""), HasSubstr("more than one number"));
     EXPECT_THAT(with("size=\"1 2 +.5\"", "size=\"1 -2 1\""), HasSubstr("must not be negative"));
+    EXPECT_THAT(with("size=\"1 2 +.5\"", "size=\"1 2 1e300\""),
+                HasSubstr("<box size=...>: 1e+300 is beyond 2^60"));
+    EXPECT_THAT(with("radius=\"0.05\"", "radius=\"1e19\""),
+                HasSubstr("arm.urdf:6: <sphere radius=...>: 1e+19 is beyond 2^60"));
     EXPECT_THAT(with("<sphere radius=\"0.05\"/>", ""), HasSubstr("<geometry> needs one shape"));
     EXPECT_THAT(with("<sphere radius=\"0.05\"/>", "<sphre radius=\"1\"/>"),
                 HasSubstr("did you mean 'sphere'"));

@@ -10,9 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <random>
+#include <set>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 namespace boxwood {
 namespace {
@@ -190,6 +194,35 @@ TEST(Contacts, MovingByTheDepthPartsThem) {
         }
     }
     EXPECT_GT(seen, 50u);
+}
+
+TEST(Contacts, OfManyTheDeepestIsKeptAndThoseThatSpanTheMost) {
+    std::mt19937 random(4);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::vector<Contact> all;
+    for (std::uint32_t i = 0; i < 200; ++i)
+        all.push_back({{unit(random), 2 * unit(random), 0}, {0, 0, 1}, unit(random), {i, 7 * i}});
+    const auto key = [](const Contact& c) { return c.triangles.a; };
+    for (const std::size_t count : {1u, 2u, 4u, 9u, 40u}) {
+        std::set<std::uint32_t> expected, found;
+        std::vector<Contact> chosen{*std::ranges::max_element(all, {}, &Contact::depth)};
+        const auto nearest = [&](const Contact& c) {
+            double least = std::numeric_limits<double>::infinity();
+            for (const Contact& other : chosen)
+                least = std::min(least, length(other.point - c.point));
+            return least;
+        };
+        while (chosen.size() < count)
+            chosen.push_back(*std::ranges::max_element(all, {}, nearest));
+        for (const Contact& c : chosen)
+            expected.insert(key(c));
+        for (const Contact& c : deepest_first(all, {.max_contacts = count}))
+            found.insert(key(c));
+        EXPECT_EQ(found, expected);
+        EXPECT_EQ(found.size(), count);
+    }
+    const std::vector<Contact> at_one_place(9, all.front());
+    EXPECT_EQ(deepest_first(at_one_place, {.max_contacts = 4}).size(), 1u);
 }
 
 TEST(Contacts, OfTouchingAndDegenerateTrianglesAreFlat) {

@@ -5,6 +5,7 @@
 #include "trees/world/mesh_tree.h"
 
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "trees/layouts/detail/collapse.h"
 #include "trees/triangle_boxes.h"
 #include "trees/world/detail/obb_fit.h"
@@ -32,10 +33,10 @@ constexpr MeshVolumeEntry volumes[] = {
 };
 
 void require_range(const Buffer<Box>& boxes) {
-    constexpr float largest = 0x1p60f;
+    constexpr float limit = static_cast<float>(coordinate_limit);
     for (std::size_t i = 0; i < boxes.size(); ++i)
         for (int axis = 0; axis < 3; ++axis)
-            if (!(boxes[i].min[axis] > -largest && boxes[i].max[axis] < largest))
+            if (!(boxes[i].min[axis] > -limit && boxes[i].max[axis] < limit))
                 throw InvalidBox(i, "its triangle has a coordinate beyond 2^60");
 }
 

@@ -1,5 +1,7 @@
 #include "trees/world/pose.h"
 
+#include "kernels/primitives/coordinate_limit.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -8,12 +10,13 @@
 namespace boxwood {
 
 Pose checked_pose(const Pose& pose) {
-    constexpr double largest = 0x1p60, permitted = 1e-3;
+    constexpr double permitted = 1e-3;
     for (const Vec3<double>& row : pose.rotation)
         if (!is_finite(row))
             throw std::invalid_argument("a pose has a rotation with a number that is not finite");
     const Vec3<double>& t = pose.translation;
-    if (!is_finite(t) || std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) >= largest)
+    if (!is_finite(t) ||
+        std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) >= coordinate_limit)
         throw std::invalid_argument("a pose has a translation that is not finite or beyond 2^60");
     Pose checked = pose;
     auto& r = checked.rotation;

@@ -1,6 +1,7 @@
 #include "trees/world/robot.h"
 
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "kernels/primitives/rotation.h"
 #include "kernels/suggest.h"
 
@@ -128,7 +129,12 @@ void Robot::poses(std::span<const double> values, std::span<RigidTransform<doubl
     tree_.forward(values, poses, root);
     for (std::size_t i = 0; i < poses.size(); ++i) {
         const Vec3<double>& at = poses[i].translation;
-        if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < 0x1p60))
+        const auto& turn = poses[i].rotation;
+        if (!is_finite(turn[0]) || !is_finite(turn[1]) || !is_finite(turn[2]))
+            throw std::invalid_argument("link '" + links()[i].name +
+                                        "' is turned by an angle that is not finite: a factor of a "
+                                        "mimic joint or a value is too large");
+        if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < coordinate_limit))
             throw std::invalid_argument("link '" + links()[i].name +
                                         "' lies beyond 2^60: an origin, a limit, a factor of a "
                                         "mimic joint or a value is too large");

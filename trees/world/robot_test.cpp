@@ -63,6 +63,13 @@ TEST(Robot, PosesRefuseWrongSizesAndValues) {
             robot.poses(std::vector{0., 1., -0x1p61}, poses);
         },
         ThrowsMessage<E>(HasSubstr("link 'finger' lies beyond 2^60")));
+    RobotDescription mad = small_robot();
+    mad.joints[2] = {"copy", JointKind::continuous, 2, 4, {}, {0, 1, 0}, 0, 0, Mimic{0, 1e300}};
+    EXPECT_THAT(
+        [&] {
+            Robot(mad).poses(std::vector{1e300, 1., -1.}, poses);
+        },
+        ThrowsMessage<E>(HasSubstr("link 'twin' is turned by an angle that is not finite")));
     poses.pop_back();
     EXPECT_THROW(robot.poses(robot.rest(), poses), E);
 }

@@ -1,7 +1,8 @@
 #include "bench/commands/demos/demo.h"
 
 #include "bench/commands/command.h"
-#include "trees/world/robot_meshes.h"
+#include "bench/commands/option_ranges.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ void add_robot(CLI::App& demo) {
     CLI::App* robot = demo.add_subcommand(
         "robot", "the same on a robot of your own: boxes, tree, allowed pairs, what touches");
     add_robot_options(*robot, options->files);
-    robot->add_option("--seed", options->seed, "of the random state")->capture_default_str();
+    robot->add_option("--seed", options->seed, "of the random state")
+        ->check(seed_range())
+        ->capture_default_str();
     robot->footer("Example: boxwood demo robot panda.urdf --srdf panda.srdf");
     robot->callback([options] {
         std::cout << robot_demo(

@@ -1,7 +1,7 @@
 #include "bench/commands/demos/demo.h"
 
 #include "bench/io/bad_input.h"
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

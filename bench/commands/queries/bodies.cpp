@@ -1,6 +1,7 @@
 #include "bench/commands/queries/bodies.h"
 
 #include "bench/io/bad_input.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "kernels/suggest.h"
 #include "scenes/text/csv.h"
 #include "scenes/text/fields.h"
@@ -178,7 +179,7 @@ std::pair<std::vector<double>, std::string> arguments(const std::string& text, c
     if (!has_all || (form.has_file && rest.empty()))
         throw BadInput(fmt::format("{}: it is {}", text, form.form));
     for (const double x : numbers) {
-        if (form.are_lengths && !(x >= 0 && x < 0x1p60))
+        if (form.are_lengths && !(x >= 0 && x < coordinate_limit))
             throw BadInput(
                 fmt::format("{}: a length is {}; it must be at least 0 and finite", text, x));
         if (!std::isfinite(x))

@@ -2,7 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "kernels/suggest.h"
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include <CLI/CLI.hpp>
 

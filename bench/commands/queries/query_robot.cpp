@@ -1,6 +1,7 @@
 /// `boxwood query robot`: self-collision of a robot that a URDF file describes.
 
 #include "bench/commands/command.h"
+#include "bench/commands/option_ranges.h"
 #include "bench/commands/queries/bodies.h"
 #include "bench/commands/queries/query.h"
 #include "bench/commands/queries/robot_case.h"
@@ -8,6 +9,7 @@
 #include "bench/commands/queries/robot_printer.h"
 #include "bench/commands/queries/surroundings.h"
 #include "bench/io/say.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "kernels/suggest.h"
 #include "scenes/robots/random_values.h"
 #include "scenes/robots/srdf.h"
@@ -18,6 +20,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -56,18 +59,25 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
     const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
-    // A plain file is replaced as a whole, as it may be the one that --srdf names; a pipe is not.
-    const std::filesystem::file_status there = std::filesystem::symlink_status(*query.write_srdf);
-    const bool replaces = is_regular_file(there);
-    const std::string written = *query.write_srdf + (replaces ? ".part" : "");
+    // A plain file is written as a whole or not at all, as it may be the one that --srdf names; a
+    // pipe is not.
+    std::error_code error;
+    const std::filesystem::path target =
+        std::filesystem::weakly_canonical(*query.write_srdf, error);
+    const std::filesystem::file_status there = std::filesystem::status(target, error);
+    const bool is_plain = !exists(there) || is_regular_file(there);
+    const std::string written = target.string() + (is_plain ? ".part" : "");
     std::ofstream file(written, std::ios::binary);
     file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
     file.close();
-    std::error_code error;
-    if (file && replaces)
-        std::filesystem::rename(written, *query.write_srdf, error);
-    if (!file || error)
-        throw BadInput(fmt::format("--write-srdf {}: cannot be written", written));
+    error.clear();
+    if (file && is_plain)
+        std::filesystem::rename(written, target, error);
+    if (file && !error)
+        return;
+    if (is_plain && is_regular_file(std::filesystem::status(written, error)))
+        std::filesystem::remove(written, error);
+    throw BadInput(fmt::format("--write-srdf {}: cannot be written", *query.write_srdf));
 }
 
 double joint_value(std::string_view item, std::string_view text) {
@@ -77,20 +87,25 @@ double joint_value(std::string_view item, std::string_view text) {
         throw BadInput(fmt::format("--joints: '{}' is no NAME=NUMBER; write "
                                    "\"NAME=NUMBER,NAME=NUMBER\", radians or metres",
                                    item));
-    if (!(std::abs(value) < 0x1p60))
+    if (!(std::abs(value) < coordinate_limit))
         throw BadInput(fmt::format("--joints: {} is beyond 2^60", item));
     return value;
 }
 
 /// "name=value,name=value"; the joints that are not named keep their values.
 void take_joints(const Robot& robot, std::string_view text, std::vector<double>& values) {
+    std::vector<std::size_t> named;
     while (!text.empty()) {
         const std::string_view item = text.substr(0, text.find(','));
         text.remove_prefix(std::min(item.size() + 1, text.size()));
         const std::size_t equals = item.rfind('=');
         const std::string_view name = item.substr(0, equals);
         const double value = joint_value(item, equals == item.npos ? "" : item.substr(equals + 1));
-        values[robot.value(name)] = value;
+        const std::size_t at = robot.value(name);
+        if (std::ranges::find(named, at) != named.end())
+            throw BadInput(fmt::format("--joints: {} is named twice", name));
+        named.push_back(at);
+        values[at] = value;
     }
 }
 
@@ -232,7 +247,9 @@ void add_query_robot(CLI::App& query, MakeLinkNarrowPhase narrow_phase) {
         ->needs(random);
     robot->add_option("--svg", options->svg, "draw the least distance over time, with its interval")
         ->needs(random);
-    robot->add_option("--seed", options->seed, "of --random and --samples")->capture_default_str();
+    robot->add_option("--seed", options->seed, "of --random and --samples")
+        ->check(seed_range())
+        ->capture_default_str();
     robot
         ->add_option("--samples", options->samples,
                      "allow pairs, too, that collide in all of so many random states, or in none")

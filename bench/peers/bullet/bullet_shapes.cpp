@@ -234,9 +234,10 @@ std::vector<ContenderEntry> bullet_shapes() {
         each_case<ShapePairCase, Pair, default_collide>(
             "shape_collide", "bullet", "shapes.collide.default_configuration", "f32",
             "Bullet's algorithms of two boxes, of spheres and capsules, else btGjkPairDetector "
-            "with "
-            "btGjkEpaPenetrationDepthSolver",
-            "btBoxBoxDetector, formulas; " + notes),
+            "with btGjkEpaPenetrationDepthSolver",
+            "btBoxBoxDetector, formulas; of GJK a distance of 1e-4 of the size counts as a "
+            "touch; " +
+                notes),
         each_case<ShapePairCase, Pair, default_distance<false>>(
             "shape_distance", "bullet", "shapes.distance.default_configuration", "f32",
             "Bullet's algorithms of spheres and capsules, else as shapes.distance",

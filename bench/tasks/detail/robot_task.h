@@ -2,8 +2,8 @@
 
 #include "bench/tasks/detail/robot_in_scene.h"
 #include "bench/tasks/task.h"
+#include "trees/world/bodies/robot_meshes.h"
 #include "trees/world/robot_collision.h"
-#include "trees/world/robot_meshes.h"
 
 #include <optional>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include "kernels/boxes/fit.h"
 #include "kernels/convex/support.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "trees/queries/sides.h"
 
 #include <algorithm>
@@ -16,20 +17,19 @@
 namespace boxwood {
 namespace {
 
-constexpr double largest = 0x1p60;
-
 double norm1(const Vec3<double>& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 void require_sizes(convex::ShapeKind kind, std::initializer_list<double> sizes) {
     for (const double size : sizes)
-        if (!(size >= 0 && size < largest))
+        if (!(size >= 0 && size < coordinate_limit))
             throw std::invalid_argument(std::string(to_string(kind)) + ": its size " +
                                         std::to_string(size) +
                                         " is negative, not a number or beyond 2^60");
 }
 void require_points(convex::ShapeKind kind, std::span<const Vec3<double>> points) {
     for (const Vec3<double>& p : points)
-        if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= largest)
+        if (!is_finite(p) ||
+            std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= coordinate_limit)
             throw std::invalid_argument(std::string(to_string(kind)) + ": point " +
                                         std::to_string(&p - points.data()) +
                                         " is not finite or beyond 2^60");
@@ -55,7 +55,7 @@ void require_valid(const convex::Shape& shape) {
             require_sizes(kind, {s.radius, s.half_length});
         } else {
             const double size = norm1(s.normal);
-            if (!(size > 0 && size < largest && std::abs(s.offset) < largest))
+            if (!(size > 0 && size < coordinate_limit && std::abs(s.offset) < coordinate_limit))
                 throw std::invalid_argument(std::string(to_string(kind)) +
                                             ": its normal is 0, or a number is not finite or "
                                             "beyond 2^60");
@@ -74,7 +74,7 @@ Aabb<float> bounds_of(const TriangleMesh& mesh) {
                                             std::to_string(mesh.vertices.size()));
             const Vec3<float>& p = mesh.vertices[vertex];
             if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >=
-                                     static_cast<float>(largest))
+                                     static_cast<float>(coordinate_limit))
                 throw InvalidBox(i, "its triangle has a coordinate that is not finite or beyond "
                                     "2^60");
             bounds.extend(p);
@@ -174,7 +174,7 @@ BodyShape BodyShape::solid_if_closed(TriangleMesh mesh, const MeshTreeOptions& o
 
 /// Triangles whose corners are one point.
 BodyShape BodyShape::points(std::span<const Vec3<float>> points, double radius) {
-    if (!(radius >= 0 && radius < largest))
+    if (!(radius >= 0 && radius < coordinate_limit))
         throw std::invalid_argument("the radius of points is negative, not a number or beyond "
                                     "2^60");
     TriangleMesh mesh{{points.begin(), points.end()}, {}};

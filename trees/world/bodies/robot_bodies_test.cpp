@@ -1,7 +1,7 @@
 #include "trees/world/bodies/robot_bodies.h"
 
 #include "trees/testing/test_meshes.h"
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

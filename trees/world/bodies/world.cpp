@@ -4,6 +4,7 @@
 #include "trees/world/bodies/world.h"
 
 #include "kernels/arithmetic/rounding.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "kernels/suggest.h"
 #include "trees/queries/box_queries.h"
 #include "trees/world/bodies/detail/world_state.h"
@@ -28,7 +29,7 @@ Box box_of(Aabb<double> box, double margin) {
 }
 
 void require_margin(double margin) {
-    if (!(margin >= 0 && margin < 0x1p60))
+    if (!(margin >= 0 && margin < coordinate_limit))
         throw std::invalid_argument("a margin must be at least 0 and below 2^60, not " +
                                     std::to_string(margin));
 }

@@ -2,6 +2,7 @@
 
 #include "kernels/arithmetic/rounding.h"
 #include "kernels/convex/signed_distance.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "trees/queries/regions.h"
 #include "trees/world/bodies/detail/sort_pairs.h"
 #include "trees/world/bodies/detail/world_state.h"
@@ -20,7 +21,7 @@ using detail::StageCounts;
 
 /// Whether a half-space or plane may be that near to a box, which is finite.
 bool reaches(const PosedShape& unbounded, const Box& box, double tolerance) {
-    if (!(tolerance < 0x1p60))
+    if (!(tolerance < coordinate_limit))
         return true;
     Pose at;
     convex::Box around;
@@ -49,7 +50,7 @@ Box detail::wider(const Box& box, double by) {
 }
 
 void World::require_tolerance(double tolerance) {
-    if (!(tolerance >= 0 && tolerance < 0x1p60))
+    if (!(tolerance >= 0 && tolerance < coordinate_limit))
         throw std::invalid_argument("a tolerance must be at least 0 and below 2^60, not " +
                                     std::to_string(tolerance));
 }

@@ -109,7 +109,8 @@ TEST(World, FindsTheNearestAsRoughlyAsIsAllowed) {
 
 /// How many pairs meet, which are those that all pairs tested one by one give.
 std::size_t expect_first_contacts_of_all_pairs(const MirroredWorld& mirror,
-                                               const std::vector<BodyMotion>& motions) {
+                                               const std::vector<BodyMotion>& motions,
+                                               const ContinuousOptions& options = {}) {
     const auto motion_of = [&](std::uint32_t body) {
         return std::ranges::find(motions, body, &BodyMotion::body);
     };
@@ -123,11 +124,12 @@ std::size_t expect_first_contacts_of_all_pairs(const MirroredWorld& mirror,
     };
     std::vector<Pair> expected;
     for (const Pair p : mirror.may_meet())
-        if ((moves(p.a) || moves(p.b)) && first_contact(moved(p.a), moved(p.b)).hit != Answer::no)
+        if ((moves(p.a) || moves(p.b)) &&
+            first_contact(moved(p.a), moved(p.b), options).hit != Answer::no)
             expected.push_back(p);
     std::vector<Pair> pairs;
     double before = 0;
-    for (const BodyFirstContact& one : mirror.world.first_contacts(motions)) {
+    for (const BodyFirstContact& one : mirror.world.first_contacts(motions, options)) {
         pairs.push_back(one.bodies);
         EXPECT_LE(before, one.contact.t_hit);
         before = one.contact.t_hit;
@@ -151,7 +153,7 @@ TEST(World, SaysHowDeepTwoAre) {
 }
 
 TEST(World, FindsFirstContactsAsAllPairsDo) {
-    std::size_t hits = 0, hits_of_few = 0;
+    std::size_t hits = 0, hits_of_few = 0, hits_of_near = 0;
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
         MirroredWorld mirror(with_unbounded());
         fill(mirror, seed, 30, 4);
@@ -172,8 +174,11 @@ TEST(World, FindsFirstContactsAsAllPairsDo) {
         std::erase_if(motions, [&](const BodyMotion&) { return random.below(2) == 0; });
         ASSERT_GT(motions.size(), 4u);
         hits += expect_first_contacts_of_all_pairs(mirror, motions);
+        hits_of_near += expect_first_contacts_of_all_pairs(mirror, motions, {.tolerance = .5});
+        hits_of_few += expect_first_contacts_of_all_pairs(mirror, {motions[0]}, {.tolerance = .5});
     }
     EXPECT_GT(hits, 50u);
+    EXPECT_GT(hits_of_near, hits);
     EXPECT_GT(hits_of_few, 50u);
 }
 

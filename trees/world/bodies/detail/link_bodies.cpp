@@ -1,6 +1,6 @@
 #include "trees/world/bodies/detail/link_bodies.h"
 
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,4 @@
-#include "trees/world/robot_meshes.h"
+#include "trees/world/bodies/robot_meshes.h"
 
 #include "kernels/convex/signed_distance.h"
 #include "kernels/triangle_distance/certified.h"
