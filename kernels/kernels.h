@@ -6,11 +6,12 @@
 /// set, and the oracle, a target of its own.
 
 // Primitives
-#include "kernels/primitives/aabb.h"            // closed boxes: overlap, merge, half area
-#include "kernels/primitives/obb.h"             // boxes in any pose
-#include "kernels/primitives/ray.h"             // rays and their hits
-#include "kernels/primitives/rigid_transform.h" // rotation and translation
-#include "kernels/primitives/rotation.h"        // products of them
+#include "kernels/primitives/aabb.h"             // closed boxes: overlap, merge, half area
+#include "kernels/primitives/coordinate_limit.h" // 2^60
+#include "kernels/primitives/obb.h"              // boxes in any pose
+#include "kernels/primitives/ray.h"              // rays and their hits
+#include "kernels/primitives/rigid_transform.h"  // rotation and translation
+#include "kernels/primitives/rotation.h"         // products of them
 #include "kernels/primitives/segment.h"
 #include "kernels/primitives/sphere.h"
 #include "kernels/primitives/triangle.h" // triangles and indexed meshes

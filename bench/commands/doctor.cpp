@@ -17,7 +17,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -244,8 +243,7 @@ std::vector<std::uint32_t> too_large(const TriangleMesh& mesh) {
         if (vertex >= mesh.vertices.size())
             return false;
         const Vec3<float>& v = mesh.vertices[vertex];
-        return is_finite(v) &&
-               double{std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)})} >= coordinate_limit;
+        return is_finite(v) && !is_in_range(v);
     };
     std::vector<std::uint32_t> found;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)

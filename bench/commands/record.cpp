@@ -152,8 +152,8 @@ void add_record(CLI::App& app, int& exit_code) {
         "No Python modules that bring an FCL or HDF5 of their own.\n"
         "Examples:\n  boxwood record ./my_planner --scene kitchen.yaml\n"
         "  boxwood record --out kitchen.h5 ./my_planner\n  boxwood replay kitchen.h5\n"
-        "Exit codes: the program's; 1 if nothing was recorded, or it cannot be "
-        "read,\n2 bad usage, 127 no such program.");
+        "Exit codes: the program's; 1 if nothing was recorded, or it cannot be read,\n"
+        "2 bad usage, 127 no such program.");
     command->callback([command, options, &exit_code] {
         options->program = command->remaining();
         exit_code = run(*options);

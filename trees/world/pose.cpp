@@ -2,8 +2,6 @@
 
 #include "kernels/primitives/coordinate_limit.h"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,9 +12,7 @@ Pose checked_pose(const Pose& pose) {
     for (const Vec3<double>& row : pose.rotation)
         if (!is_finite(row))
             throw std::invalid_argument("a pose has a rotation with a number that is not finite");
-    const Vec3<double>& t = pose.translation;
-    if (!is_finite(t) ||
-        std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) >= coordinate_limit)
+    if (!is_in_range(pose.translation))
         throw std::invalid_argument("a pose has a translation that is not finite or beyond 2^60");
     Pose checked = pose;
     auto& r = checked.rotation;

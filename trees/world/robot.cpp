@@ -128,13 +128,12 @@ void Robot::poses(std::span<const double> values, std::span<RigidTransform<doubl
                                         std::to_string(values[i]) + "; it must be finite");
     tree_.forward(values, poses, root);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-        const Vec3<double>& at = poses[i].translation;
         const auto& turn = poses[i].rotation;
         if (!is_finite(turn[0]) || !is_finite(turn[1]) || !is_finite(turn[2]))
             throw std::invalid_argument("link '" + links()[i].name +
                                         "' is turned by an angle that is not finite: a factor of a "
                                         "mimic joint or a value is too large");
-        if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) < coordinate_limit))
+        if (!is_in_range(poses[i].translation))
             throw std::invalid_argument("link '" + links()[i].name +
                                         "' lies beyond 2^60: an origin, a limit, a factor of a "
                                         "mimic joint or a value is too large");

@@ -5,7 +5,6 @@
 #include "kernels/primitives/coordinate_limit.h"
 #include "trees/queries/sides.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <initializer_list>
@@ -28,8 +27,7 @@ void require_sizes(convex::ShapeKind kind, std::initializer_list<double> sizes) 
 }
 void require_points(convex::ShapeKind kind, std::span<const Vec3<double>> points) {
     for (const Vec3<double>& p : points)
-        if (!is_finite(p) ||
-            std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >= coordinate_limit)
+        if (!is_in_range(p))
             throw std::invalid_argument(std::string(to_string(kind)) + ": point " +
                                         std::to_string(&p - points.data()) +
                                         " is not finite or beyond 2^60");
@@ -73,8 +71,7 @@ Aabb<float> bounds_of(const TriangleMesh& mesh) {
                                             std::to_string(vertex) + ", and there are " +
                                             std::to_string(mesh.vertices.size()));
             const Vec3<float>& p = mesh.vertices[vertex];
-            if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) >=
-                                     static_cast<float>(coordinate_limit))
+            if (!is_in_range(p))
                 throw InvalidBox(i, "its triangle has a coordinate that is not finite or beyond "
                                     "2^60");
             bounds.extend(p);
