@@ -7,9 +7,11 @@ import subprocess
 
 import h5py
 import pytest
+from synthetic import SCRIPTS
 from test_boxwood import PROGRAM
 
 USES_FCL = PROGRAM.parent / "bench" / "boxwood_program_of_fcl"
+PUBLISHED = SCRIPTS.parent / "results" / "published" / "effects.h5"
 MANAGERS = ("dynamic_tree", "dynamic_tree_array", "sap", "ssap", "interval_tree", "naive")
 SETUP, COLLIDE_SELF, DISTANCE_SELF = 3, 6, 9  # trees/adapters/recording.h
 
@@ -121,7 +123,7 @@ def test_a_full_disk_is_told_and_leaves_the_program_alone(tmp_path):
 
     recorded = run(PROGRAM, "record", "--out", tmp_path / "a.h5", USES_FCL, preexec_fn=little_space)
     assert recorded.stdout == alone.stdout
-    assert recorded.returncode == 0
+    assert recorded.returncode == 1  # of the recording, which cannot be read
     assert "cannot be written" in recorded.stderr
 
 
@@ -132,6 +134,12 @@ def test_the_status_is_the_programs(tmp_path):
     nothing = run(PROGRAM, "record", "--out", tmp_path / "d.h5", "true")
     assert nothing.returncode == 1
     assert "called no manager" in nothing.stderr
+
+
+def test_a_result_file_is_told_from_a_recording():
+    told = run(PROGRAM, "replay", PUBLISHED)
+    assert told.returncode == 2
+    assert "effects.h5: it has no table format" in told.stderr and "result files are for `boxwood show`" in told.stderr
 
 
 def test_bad_usage_is_told(tmp_path):
