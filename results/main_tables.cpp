@@ -169,8 +169,8 @@ std::vector<Table> main_tables() {
              {"other_cores", &Shard::other_cores, "",
               "processors at work for others just before it began", 0, false, minor_3},
              {"input", &Shard::input, "",
-              "of a sweep of several: scenes at rest that are made from a seed have their seed "
-              "plus this",
+              "of a sweep of several: scenes of boxes or of a mesh at rest that are made from a "
+              "seed have their seed plus this",
               0, false, minor_3},
              {"gpu_copy_gbs", &Shard::gpu_copy_gbs, "GB/s", "within the device's memory", 0, false,
               minor_1},

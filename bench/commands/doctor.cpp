@@ -8,7 +8,6 @@
 #include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
-#include "kernels/primitives/coordinate_limit.h"
 #include "scenes/meshes/mesh_file.h"
 #include "trees/queries/sides.h"
 #include "trees/world/mesh_triage.h"
@@ -237,28 +236,12 @@ std::string some(const std::vector<std::uint32_t>& triangles) {
                : fmt::format("{} (the first: triangle {})", triangles.size(), triangles.front());
 }
 
-/// Finite, and yet no tree takes them.
-std::vector<std::uint32_t> too_large(const TriangleMesh& mesh) {
-    const auto is_large = [&](std::uint32_t vertex) {
-        if (vertex >= mesh.vertices.size())
-            return false;
-        const Vec3<float>& v = mesh.vertices[vertex];
-        return is_finite(v) && !is_in_range(v);
-    };
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
-        if (std::ranges::any_of(mesh.triangles[i], is_large))
-            found.push_back(i);
-    return found;
-}
-
 } // namespace
 
 std::string doctor_of_mesh(const TriangleMesh& mesh, const std::string& file, bool json) {
     const MeshTriage found = triage(mesh);
-    const std::vector<std::uint32_t> large = too_large(mesh);
     // As --solid and contains see it.
-    const bool may_be_solid = found.not_finite.empty() && large.empty() && open_edges(mesh) == 0;
+    const bool may_be_solid = found.not_finite.empty() && open_edges(mesh) == 0;
     if (json)
         return fmt::format(
             "{{\"triangles\":{},\"vertices\":{},\"not_finite\":{},\"too_large\":{},\"without_"
@@ -266,26 +249,27 @@ std::string doctor_of_mesh(const TriangleMesh& mesh, const std::string& file, bo
             "{},\"open_edges\":"
             "{},"
             "\"non_manifold_edges\":{},\"turned_edges\":{},\"is_closed\":{},\"is_clean\":{}}}\n",
-            found.triangles, found.vertices, found.not_finite.size(), large.size(),
+            found.triangles, found.vertices, found.not_finite.size(), found.too_large.size(),
             found.without_area.size(), found.repeated.size(), found.open_edges,
-            found.non_manifold_edges, found.turned_edges, may_be_solid,
-            found.is_clean() && large.empty());
+            found.non_manifold_edges, found.turned_edges, may_be_solid, found.is_clean());
     std::string text =
         fmt::format("{}: {} triangles, {} vertices (those at one place counted once)\n", file,
                     found.triangles, found.vertices);
     text += fmt::format("  triangles with a NaN or inf  {}\n", some(found.not_finite));
-    text += fmt::format("  triangles beyond 2^60        {}\n", some(large));
+    text += fmt::format("  triangles beyond 2^60        {}\n", some(found.too_large));
     text += fmt::format("  triangles without area       {}\n", some(found.without_area));
     text += fmt::format("  triangles that are repeated  {}\n", some(found.repeated));
     text += fmt::format("  open edges                   {}\n", found.open_edges);
     text += fmt::format("  edges of three and more      {}\n", found.non_manifold_edges);
     text += fmt::format("  edges wound both ways        {}\n", found.turned_edges);
     text += may_be_solid ? "It is closed: it may be a solid (query collide --solid, contains).\n"
-            : !large.empty() ? "Its coordinates are too large: give it another unit.\n"
             : found.is_closed()
-                ? "It is closed but for its bad triangles, those of the rows above: without "
-                  "them (--out FILE.obj) it may be a solid.\n"
+                ? "It is closed but for its bad triangles (NaN or inf, without area, repeated): "
+                  "without them (--out FILE.obj) it may be a solid.\n"
                 : "It is not closed: it is a surface, and no solid.\n";
+    if (!found.too_large.empty())
+        text += "What is beyond 2^60 cannot be held against other bodies (query collide, distance, "
+                "...): give it another unit.\n";
     return text;
 }
 

@@ -185,8 +185,9 @@ TEST(Doctor, LooksAtAMesh) {
     EXPECT_THROW(write_good_triangles(mesh, good.string()), BadInput);
     TriangleMesh large = load_mesh(good);
     large.vertices[large.triangles[2][0]].x = 0x1p60f;
-    EXPECT_THAT(doctor_of_mesh(large, "c.obj", true),
-                AllOf(HasSubstr("\"too_large\":3,"), HasSubstr("\"is_clean\":false}")));
+    EXPECT_THAT(
+        doctor_of_mesh(large, "c.obj", true),
+        AllOf(HasSubstr("\"too_large\":3,"), HasSubstr("\"is_closed\":true,\"is_clean\":false}")));
     EXPECT_THAT(doctor_of_mesh(large, "c.obj", false),
                 AllOf(HasSubstr("beyond 2^60        3 (the first: triangle 0)"),
                       HasSubstr("another unit")));

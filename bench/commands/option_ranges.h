@@ -1,8 +1,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -16,15 +16,15 @@ inline CLI::Range seed_range() {
 
 /// A number from `lowest` to `highest`: CLI::Range lets NaN pass.
 inline CLI::Validator number_range(double lowest, double highest) {
-    CLI::Range range(lowest, highest);
+    const std::string range = fmt::format("a number from {} to {}", lowest, highest);
     return CLI::Validator(
-        [range](std::string& text) {
+        [=](std::string& text) {
             double value = 0;
-            return CLI::detail::lexical_cast(text, value) && std::isnan(value)
-                       ? text + " is not a number"
-                       : range(text);
+            return CLI::detail::lexical_cast(text, value) && lowest <= value && value <= highest
+                       ? std::string()
+                       : fmt::format("{} is not {}", text, range);
         },
-        range.get_description());
+        range);
 }
 
 } // namespace boxwood::bench

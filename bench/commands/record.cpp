@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -89,6 +90,15 @@ bool say_what_is_in(const fs::path& file) {
     }
 }
 
+/// Before a program runs for nothing.
+void require_writable(const std::string& file) {
+    const int made = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (made < 0)
+        throw BadInput(fmt::format("--out {}: cannot be written: {}", file, std::strerror(errno)));
+    ::close(made);
+    fs::remove(file);
+}
+
 int run(const RecordOptions& options) {
     const fs::path library = record_library();
     if (options.program.empty())
@@ -96,9 +106,7 @@ int run(const RecordOptions& options) {
     if (const auto there = recordings(options.file); !there.empty())
         throw BadInput(fmt::format("{} is there already: remove it, or give another --out",
                                    there.front().string()));
-    if (const fs::path folder = fs::absolute(options.file).parent_path(); !fs::is_directory(folder))
-        throw BadInput(
-            fmt::format("--out {}: there is no folder {}", options.file, folder.string()));
+    require_writable(options.file);
     // Ctrl-C is the program's, which both get.
     std::signal(SIGINT, SIG_IGN);
     const pid_t child = fork();

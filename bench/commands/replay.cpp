@@ -359,7 +359,7 @@ void add_replay(CLI::App& app, int& exit_code) {
     command
         ->add_option("--max-tests", options->max_tests,
                      "check queries until so many pairs, of bounds or of triangles, are tested")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_range(0, 1e18))
         ->capture_default_str();
     command->add_flag("--json", options->json, "print one JSON object");
     command->footer(

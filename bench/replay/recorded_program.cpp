@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -100,14 +101,22 @@ void read_requests(const std::filesystem::path& file, RecordedProgram& program) 
              counts.whole(row, 2, 0x1p53), counts.number(row, 3)});
 }
 
+bool is_of_results(const std::filesystem::path& file) try {
+    constexpr std::array<std::string_view, 1> number{"cell_id"};
+    results::read_columns(file, "cells", number);
+    return true;
+} catch (const std::runtime_error&) {
+    return false;
+}
+
 Table format_of(const std::filesystem::path& file) try {
     return {file, "format", recording::format};
-} catch (const std::runtime_error& error) {
-    if (!results::is_hdf5(file))
+} catch (const std::runtime_error&) {
+    if (!is_of_results(file))
         throw;
-    throw std::runtime_error(fmt::format("{}; `boxwood record` and recorders write recordings, "
-                                         "result files are for `boxwood show`",
-                                         error.what()));
+    throw std::runtime_error(fmt::format("{} is a result file, for `boxwood show`; `boxwood "
+                                         "record` and recorders write recordings",
+                                         file.string()));
 }
 
 } // namespace

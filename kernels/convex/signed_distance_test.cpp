@@ -84,6 +84,19 @@ struct Judge {
     }
 };
 
+TEST(SignedDistance, ADepthSurelyParts) {
+    const auto depth = [](double distance, double lo, double hi) {
+        SignedDistance d;
+        d.distance = distance;
+        d.lo = lo;
+        d.hi = hi;
+        return d.depth();
+    };
+    EXPECT_EQ(depth(-2, -3, -1), 3);
+    EXPECT_EQ(depth(0, -1, 1), 1); // they may be in one another so far
+    EXPECT_EQ(depth(2, 1, 3), -2);
+}
+
 TEST(SignedDistance, BoundsHoldForAllPairsOfKinds) {
     RandomShapes shapes(1);
     Judge judge;

@@ -6,8 +6,9 @@
 
 namespace boxwood {
 
-/// Coordinates, sizes, margins and tolerances of meshes, bodies and robots are below it: products
-/// of two of them are finite in floats.
+/// Coordinates, sizes and margins of bodies, robots, and meshes that are held against one another
+/// are below it: products of two of them are finite in floats. (MeshBvh takes rays and points to
+/// meshes below 2^126.)
 inline constexpr double coordinate_limit = 0x1p60;
 
 /// Whether all three are numbers below it.

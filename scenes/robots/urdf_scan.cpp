@@ -80,8 +80,8 @@ class UrdfScanner {
 
     void require_range(const Element& of, const char* attribute, double number) const {
         if (!(std::abs(number) < coordinate_limit))
-            reader_.fail(of, fmt::format("<{} {}=...>: {} is beyond 2^60; lengths are in metres",
-                                         of.Name(), attribute, number));
+            reader_.fail(
+                of, fmt::format("<{} {}=...>: {} is beyond 2^60", of.Name(), attribute, number));
     }
 
     Vec3<double> lengths(const Element& of, const char* attribute,
@@ -95,10 +95,10 @@ class UrdfScanner {
 
     double size(const Element& of, const char* attribute) const {
         const double number = reader_.number(of, attribute);
-        require_range(of, attribute, number);
         if (number < 0)
             reader_.fail(of, fmt::format("<{} {}=\"{}\">: it must not be negative", of.Name(),
                                          attribute, number));
+        require_range(of, attribute, number);
         return number;
     }
 

@@ -63,14 +63,14 @@ class Run:
                     found[library] = row["manager"], over
         return found
 
-    def fault(self):
+    def fault(self, rounds):
         """Why these rows are not to be used; empty if they are."""
         for row in self.managers:
             times, first = row["rounds_ns"], self.managers[0]["rounds_ns"]
             if row["manager"] in (*OURS.values(), WORLD) and (row["wrong"] or row.get("differ", 0)):
                 return f"{row['manager']} is wrong"
-            if len(times) != len(first) or len(times) < MIN_ROUNDS or not min(times) > 0:
-                return f"{row['manager']} has not a time above 0 of each of {MIN_ROUNDS} rounds at least"
+            if len(times) != rounds or rounds < MIN_ROUNDS or not min(times) > 0:
+                return f"{row['manager']} has not a time above 0 of each of {max(rounds, MIN_ROUNDS)} rounds"
             if not math.isclose(statistics.median(ns / own for ns, own in zip(times, first)), row["over_first"]["mid"], rel_tol=NEAR):
                 return f"{row['manager']}: its ratio does not follow from its rounds"
         if not self.checked:
@@ -114,7 +114,7 @@ def lacks(times):
     found = [f"the program of {bodies:,} {'meshes' if are_meshes else 'bodies'} of which {moved:.0%} move"
              for are_meshes, programs in ((False, FRAMES), (True, MESH_FRAMES)) for bodies in programs for moved in MOVED
              if (bodies, moved, are_meshes) not in there]
-    found += [f"{wanted} frames of the program of {run.bodies:,} {'meshes' if run.triangles else 'bodies'}, which has {run.frames}"
+    found += [f"the program of {run.bodies:,} {'meshes' if run.triangles else 'bodies'} in {wanted} frames: it has one of {run.frames}"
               for run in times.runs if (wanted := (MESH_FRAMES if run.triangles else FRAMES).get(run.bodies, run.frames)) != run.frames]
     return found + [f"{name} with {run.bodies:,} bodies" for run in times.runs for name in run.missing()]
 
@@ -126,8 +126,8 @@ def read(path):
         if not times.runs:
             raise ValueError("no program")
         for run in times.runs:
-            if run.fault():
-                raise ValueError(f"{run.bodies} bodies: {run.fault()}")
+            if fault := run.fault(times.rounds):
+                raise ValueError(f"{run.bodies} bodies: {fault}")
         return times
     except (OSError, ValueError, KeyError, TypeError, IndexError) as error:
         raise BadFile(path, f"it is no file of scripts/dropin_bench --out ({error})") from error

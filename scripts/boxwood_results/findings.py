@@ -67,6 +67,7 @@ class Finding:
 
     topic: str
     is_headline: bool
+    is_loss: bool
     task: str
     threads: int
     contender_class: str
@@ -95,7 +96,7 @@ def read_findings(table, cells):
     """In the order of the file: losses first."""
     return [
         Finding(
-            row["topic"], bool(row["is_headline"]), row["task"], int(row["threads"]), row["class"], row["question"],
+            row["topic"], bool(row["is_headline"]), bool(row["is_loss"]), row["task"], int(row["threads"]), row["class"], row["question"],
             row["together"], row["alone"], row["certainty"],
             *(cells.get(row[side]) for side in ("ours", "rival", "ours_alone", "rival_alone")),
         )

@@ -3,7 +3,7 @@
 from html import escape
 
 from . import history, registry
-from .findings import comparison_rows
+from .findings import CALL, RACE, comparison_rows
 from .inline_svg import InlineSvgs
 from .picture import cell_text, svgs_of_panels
 from .selection import wrong_text
@@ -270,10 +270,17 @@ def lacking_html(lacking):
     return table(("figure", "what this run lacks for it"), lacking) if lacking else ""
 
 
+def tally_text(run):
+    """How many of the questions asked of rivals are lost, on the first screen."""
+    races = [finding for finding in run.findings if finding.is_headline and finding.topic in (RACE, CALL)]
+    lost = [finding for finding in races if finding.is_loss]
+    return f"Boxwood loses {len(lost) or 'none'} of {len(races)} questions, losses first. " if races else ""
+
+
 def findings_section_html(run):
     columns, rows = comparison_rows(run.comparisons)
     return "".join([
-        "<p class=note>Losses first. Our best against the best rival of the same run: above 1 Boxwood is the faster.</p>",
+        f"<p class=note>{tally_text(run)}Our best against the best rival of the same run: above 1 Boxwood is the faster.</p>",
         main_findings_html(run),
         folded(f"All {len(rows):,} comparisons, ours against ourselves and threads too", table(columns, rows)) if rows else "",
     ])

@@ -10,7 +10,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import dropin_times, marks, picture, published_tables, python_times, recomputed, registry
+from . import dropin_times, marks, picture, published_tables, python_times, recomputed, registry, verdicts
 from .checkout import machine as machine_of
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
@@ -295,7 +295,7 @@ def faults(file, run, on_device=False):
     if not sweep_text(run):
         found.append("it does not hold the sweep that made it")
     sweep = tomllib.loads(sweep_text(run))
-    wanted = max(sweep.get("rounds", 0), recomputed.MIN_ROUNDS_OF_VERDICT)
+    wanted = max(sweep.get("rounds", 0), verdicts.MIN_ROUNDS_OF_VERDICT)
     if run.rounds < wanted and not on_device:
         found.append(f"{run.rounds} rounds; {wanted} are wanted, by its sweep or for a verdict")
     inputs = sweep.get("inputs", 1)
@@ -303,12 +303,6 @@ def faults(file, run, on_device=False):
         found.append(f"{run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
                      f"--rounds {ROUNDS_OF_AN_INPUT * inputs}")
     return [f"{file}: {fault}" for fault in found]
-
-
-def is_since(root, commit, earlier):
-    """Whether a commit holds an earlier one; without git, or where it does not know the earlier one, nothing is against it."""
-    is_known = git(root, "cat-file", "-e", f"{earlier}^{{commit}}").returncode == 0
-    return not is_known or git(root, "merge-base", "--is-ancestor", earlier, commit).returncode == 0
 
 
 def git(root, *arguments):
@@ -349,11 +343,10 @@ def problems(root):
             found.append(f"{root / PYTHON}: it lacks questions or rounds (7 questions of two sizes, {PYTHON_ROUNDS} rounds)")
         commits.add(times.env["git_commit"])
         of_json[PYTHON] = times.env
-    if (root / DROPIN).exists():  # of a commit of its own, which its lines say
+    if (root / DROPIN).exists():
         times = dropin_times.read(root / DROPIN)
         found += [f"{root / DROPIN}: it lacks {what}" for what in dropin_times.lacks(times)]
-        found += [f"{root / DROPIN}: not measured after commit {commit[:8]} of the sweeps" for commit in commits
-                  if not is_since(root, times.env["git_commit"], commit)]
+        commits.add(times.env["git_commit"])
         of_json[DROPIN] = times.env
     for file, env in of_json.items():
         machines.add(machine_of(env))

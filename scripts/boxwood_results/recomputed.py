@@ -1,104 +1,35 @@
 """What a file says, held against its own samples: a second way to the numbers of bench/analysis, in another language."""
 
 import math
-from collections import Counter, defaultdict
+from collections import defaultdict
 from statistics import median
 
+from . import verdicts
 from .run import AA_TWIN, WHOLE_QUERY
-
-SUMS = {"build+query": ("build", "query"), "update+query": ("update", "query")}
-MIN_ROUNDS_OF_VERDICT = 9
-MIN_ROUNDS_OF_INPUT = 3  # fewer have no median that one disturbed round leaves alone
-NEAR = 1e-5  # of what is stored and what is computed
+from .verdicts import SUMS, is_near, pairs
 
 
-def rounds_by_cell(source):
-    """{(cell, phase): {(machine, round): [ns, ...]}} without the twins, sums included."""
+def rounds_by_cell(source, of_twins=False):
+    """{(cell, phase): {(machine, round): [ns, ...]}} without the twins, sums included; or of what was timed twice the second times."""
     machine = {row["env_id"]: row["env_hash"] for row in source["env"]}
     shards = {row["shard_id"]: row for row in source["shards"]}
-    rows = [row for row in source["samples"] if not row["flags"] & AA_TWIN and row["wall_ns"] > 0 and math.isfinite(row["wall_ns"])]
+    rows = [row for row in source["samples"] if bool(row["flags"] & AA_TWIN) == of_twins and row["wall_ns"] > 0 and math.isfinite(row["wall_ns"])]
     found = defaultdict(lambda: defaultdict(list))
     for row in sorted(rows, key=lambda row: shards[row["shard_id"]]["t0_utc_ns"]):
         key = machine[shards[row["shard_id"]]["env_id"]], row["round"]
         found[row["cell_id"], row["phase"]][key].append(float(row["wall_ns"]))
-    for cell in {cell for cell, _ in found}:
+    for cell in {cell for cell, _ in found} if not of_twins else ():
         for phase, (first, second) in SUMS.items():
             if (cell, first) in found and (cell, second) in found:
-                found[cell, phase] = {key: [a + b for a, b in pairs(found[cell, first], found[cell, second], key)]
-                                      for key in found[cell, first].keys() & found[cell, second].keys()}
+                for key, a, b in pairs(found[cell, first], found[cell, second]):
+                    found[cell, phase][key].append(a + b)
     return found
-
-
-def pairs(a, b, key):
-    return zip(a[key], b[key])
-
-
-def narrowest(n):
-    """The highest rank, from 1, whose interval to its mirror image holds the median with 95 %; 0 if there is none."""
-    rank, misses = 0, 0.0
-    while rank < n // 2:
-        misses += 2 * math.comb(n, rank) / 2**n
-        if misses > 0.05:
-            break
-        rank += 1
-    return rank
-
-
-def intervals(logs, inputs):
-    """All intervals that may stand for these rounds: that of 95 % and the wider ones, with the medians of the inputs."""
-    of_input = defaultdict(list)
-    for log, number in zip(logs, inputs):
-        of_input[number].append(log)
-    medians = [median(values) for values in of_input.values() if len(values) >= MIN_ROUNDS_OF_INPUT]
-    medians = medians if len(medians) > 1 else []
-    ordered = sorted(logs)
-    return [(min(ordered[rank - 1], *medians) if medians else ordered[rank - 1],
-             max(ordered[-rank], *medians) if medians else ordered[-rank]) for rank in range(narrowest(len(logs)), 0, -1)]
-
-
-def is_near(a, b):
-    return abs(a - b) <= NEAR * max(abs(a), abs(b))
-
-
-DECIDED = ("faster", "slower")
-ERROR = 0.05  # of all claims of a task together
-OF_THE_INTERVAL = ("too_noisy", "below_the_floor", "crosses_1")
-
-
-def is_held(row, verdict):
-    """Whether a verdict's interval lies beyond 1, and the ratio beyond the noise floor; all of the interval, where that is above delta."""
-    near_end, floor = row["ci_hi" if verdict == "faster" else "ci_lo"], row["floor"]
-    held = near_end if floor > row["delta"] else row["ratio"]
-    beyond_1 = near_end < 1 if verdict == "faster" else near_end > 1
-    return beyond_1 and not (floor >= 0 and 1 / (1 + floor) <= held <= 1 + floor)
-
-
-def is_same(row):
-    """Whether all of the interval is within delta of 1, and the noise floor, where it is known, no higher."""
-    return all(1 / (1 + row["delta"]) <= row[end] <= 1 + row["delta"] for end in ("ci_lo", "ci_hi")) and not row["floor"] > row["delta"]
-
-
-def has_enough(row, n_claims):
-    """Whether so many rounds have an interval even at the level that a claim has if it is the only clear one of its task."""
-    return row["n_pairs"] >= MIN_ROUNDS_OF_VERDICT and 2 * n_claims / 2 ** int(row["n_pairs"]) <= ERROR
-
-
-def unlike_its_interval(row, n_claims):
-    """What is wrong with a verdict, in words; empty if its interval and the noise floor say the same."""
-    verdict, reason = row["verdict"], row["reason"]
-    if (verdict in DECIDED and not is_held(row, verdict)) or (verdict == "same" and not is_same(row)):
-        return f"called {verdict}, and its interval or the noise floor does not"
-    if verdict == "cannot_tell" and reason in OF_THE_INTERVAL and any(is_held(row, one) for one in DECIDED):
-        return f"called open ({reason}), and its interval and the noise floor decide it"
-    if verdict == "cannot_tell" and reason == "too_few_rounds" and has_enough(row, n_claims):
-        return f"called open ({reason}), and {row['n_pairs']} are enough"
-    return ""
 
 
 def differences(source):
     """What the tables that are published do not have from /samples and from what was counted, as texts; none if all follows."""
     times = rounds_by_cell(source)
-    return [*medians_and_ratios(source, times), *kernels(source, times), *kernel_costs(source), *effect_costs(source, times),
+    return [*medians(source, times), *verdicts.differences(source, times, rounds_by_cell(source, of_twins=True)), *kernels(source, times), *kernel_costs(source), *effect_costs(source, times),
             *device_gains(source, times)]
 
 
@@ -143,7 +74,7 @@ def kernel_costs(source):
 def shared(times, cell, other, phase):
     """The median of a cell in the rounds that another has, too."""
     own, of_other = times.get((cell, phase), {}), times.get((other, phase), {})
-    values = [ns for key in own.keys() & of_other.keys() for ns, _ in pairs(own, of_other, key)]
+    values = [ns for _, ns, _ in pairs(own, of_other)]
     return median(values) if values else math.nan
 
 
@@ -185,29 +116,8 @@ def device_gains(source, times):
             yield f"{name}: not the ratio of its comparison"
 
 
-def medians_and_ratios(source, times):
-    machine = {row["env_id"]: row["env_hash"] for row in source["env"]}
-    input_of = {(machine[row["env_id"]], row["round"]): row["input"] for row in source["shards"]}
-    task_of = {row["cell_id"]: row["task"] for row in source["cells"]}
-    claims = Counter((row["family"], task_of[row["cell_b"]]) for row in source["compare"])
-    found = []
+def medians(source, times):
     for row in source["medians"]:
         values = [ns for of_round in times.get((row["cell_id"], row["phase"]), {}).values() for ns in of_round]
         if len(values) != row["n"] or not is_near(median(values), row["median_ns"]):
-            found.append(f"/medians, cell {row['cell_id']}, {row['phase']}: not the median of its samples")
-    for row in source["compare"]:
-        if row["ratio"] != row["ratio"]:
-            continue
-        a, b = (times.get((row[side], row["phase"]), {}) for side in ("cell_a", "cell_b"))
-        both = [(key, math.log(y / x)) for key in sorted(a.keys() & b.keys()) for x, y in pairs(a, b, key)]
-        logs = [log for _, log in both]
-        name = f"/compare, cell {row['cell_b']} against {row['cell_a']}, {row['phase']}"
-        if len(logs) != row["n_pairs"] or not is_near(math.exp(median(logs)), row["ratio"]):
-            found.append(f"{name}: not the ratio of its samples")
-        elif row["ci_lo"] == row["ci_lo"] and not any(
-                is_near(math.exp(lo), row["ci_lo"]) and is_near(math.exp(hi), row["ci_hi"])
-                for lo, hi in intervals(logs, [input_of[key] for key, _ in both])):
-            found.append(f"{name}: not an interval of its samples")
-        elif unlike := unlike_its_interval(row, claims[row["family"], task_of[row["cell_b"]]]):
-            found.append(f"{name}: {unlike}")
-    return found
+            yield f"/medians, cell {row['cell_id']}, {row['phase']}: not the median of its samples"

@@ -68,6 +68,15 @@ def test_a_text_keeps_clear_of_a_line():
     style.plt.close(figure)
 
 
+@pytest.mark.parametrize("apart, is_joined", [(0.02, True), (0.5, False)])
+def test_a_text_that_is_as_near_to_another_point_is_joined_to_its_own(apart, is_joined):
+    figure, (ax,) = style.panels(1)
+    ax.set(xlim=(0, 10), ylim=(0, 10))
+    labels.beside_points(ax, [(5, 5, "a name", "#000000"), (5 + apart, 5, "another", "#000000")])
+    assert [text.arrow_patch is not None for text in ax.texts] == [is_joined, is_joined]
+    style.plt.close(figure)
+
+
 def cell(label, ours=True, status="right"):
     return SimpleNamespace(label=label, ours=ours, status=status)
 

@@ -10,7 +10,7 @@ import pytest
 import synthetic
 from synthetic import SCRIPTS, file_of
 
-from boxwood_results import published, published_tables, recomputed
+from boxwood_results import published, published_tables, recomputed, verdicts
 from boxwood_results.findings import CALL
 from boxwood_results.run import Job
 from boxwood_results.selection import fullest
@@ -137,6 +137,19 @@ def test_what_is_published_has_three_rounds_of_each_input(root, inputs, rounds):
     assert len(said) == (rounds > 0) and all(f"15 rounds for {inputs} inputs" in line and f"--rounds {rounds}" in line for line in said)
 
 
+def test_what_is_published_has_the_rounds_of_its_sweep_and_of_a_verdict(root):
+    for rounds, toml, wanted in ((15, "rounds = 15", 0), (15, "rounds = 16", 16), (9, "rounds = 3", 0), (8, "rounds = 3", 9)):
+        file = file_of(root, "effects", synthetic.small(rounds, twin=True), toml)
+        said = [line for line in published.faults(file, published.read(file)) if "are wanted" in line]
+        assert len(said) == (wanted > 0) and all(f"{rounds} rounds; {wanted} are wanted" in line for line in said)
+
+
+def test_without_git_nothing_is_known_to_have_changed(root, monkeypatch):
+    file_of(root, "effects", synthetic.full(wrong=False))
+    monkeypatch.setenv("PATH", str(root))
+    assert published.changed_since(root) == []
+
+
 def test_a_sweep_that_has_changed_since_is_said_on_the_page(root):
     file_of(root, "effects", synthetic.full(wrong=False), "rounds = 3")
     published.freeze(root)
@@ -173,8 +186,9 @@ def edited(file, table, column, change):
     ("samples", "wall_ns", lambda ns: 3 * ns, "not the median of its samples"),
     ("medians", "median_ns", lambda ns: 1.01 * ns, "not the median of its samples"),
     ("compare", "ratio", lambda ratio: 2 * ratio, "not the ratio of its samples"),
-    ("compare", "ci_hi", lambda hi: 0.999 * hi, "not an interval of its samples"),
-    ("compare", "floor", lambda floor: 1000 + 0 * floor, "its interval or the noise floor does not"),
+    ("compare", "ci_hi", lambda hi: 0.999 * hi, "its samples are"),
+    ("compare", "floor", lambda floor: 1000 + 0 * floor, "not the noise floor of the samples"),
+    ("compare", "n_pairs", lambda n: n - 1, "not as many rounds as its samples"),
     ("kernels", "ns", lambda ns: 1.01 * ns, "not the time of its samples"),
     ("kernels", "wrong", lambda wrong: wrong + 1, "not as many wrong as were counted"),
     ("kernel_costs", "ns", lambda ns: 1.01 * ns, "not the mean of its families"),
@@ -196,39 +210,57 @@ def test_numbers_that_do_not_follow_from_the_samples_are_said(root, table, colum
     assert "do not follow from its samples" in said and problem in said
 
 
-@pytest.mark.parametrize("verdict", ["faster", "slower"])
-def test_what_is_decided_is_not_called_open(verdict):
-    row = {"ratio": 2 if verdict == "slower" else 0.5, "ci_lo": 1.8, "ci_hi": 2.2, "floor": 0.1, "delta": 0.05}
-    if verdict == "faster":
-        row |= {"ci_lo": 0.4, "ci_hi": 0.6}
-    other = "faster" if verdict == "slower" else "slower"
-    assert recomputed.is_held(row, verdict) and not recomputed.is_held(row, other)
-    assert not recomputed.is_held(row | {"floor": 2}, verdict)
+def calling(verdict, reason):
+    def change(rows):
+        rows["verdict"], rows["reason"] = verdict, reason
+
+    return change
 
 
-def test_a_loss_that_is_called_open_is_said(root):
+def with_the_widest_interval(rows):
+    """Of which a loss is none: it crosses 1."""
+    calling(b"cannot_tell", b"crosses_1")(rows)
+    rows["ci_lo"], rows["ci_hi"] = 0.5, 2
+
+
+@pytest.mark.parametrize("change", [
+    *(calling(b"cannot_tell", reason) for reason in (b"too_noisy", b"below_the_floor", b"too_few_rounds", b"crosses_1", b"memory_layout", b"unchecked", b"")),
+    *(calling(verdict, b"") for verdict in (b"faster", b"same", b"wrong", b"")),
+    with_the_widest_interval])
+def test_a_loss_that_is_hidden_is_said(root, change):
     file = file_of(root, "pairs", synthetic.full(wrong=False))
-    published.freeze(root)
     with h5py.File(file, "a") as tables:
         rows = tables["compare"][:]
-        decided = [verdict in (b"faster", b"slower") for verdict in rows["verdict"]]
-        assert any(decided)
-        rows["verdict"][decided], rows["reason"][decided] = b"cannot_tell", b"too_noisy"
+        lost = rows["verdict"] == b"slower"
+        assert lost.any()
+        changed = rows[lost]
+        change(changed)
+        rows[lost] = changed
         tables["compare"][:] = rows
-    synthetic.seal(file)
-    published.write(root)
-    assert any("called open (too_noisy), and its interval and the noise floor decide it" in line for line in published.problems(root))
+    found = [line for line in recomputed.differences(published.read(file).source) if line.startswith("/compare")]
+    assert len(found) == lost.sum() and all("its samples are slower" in line for line in found)
 
 
-def test_what_differs_is_not_called_the_same_nor_enough_rounds_too_few():
-    row = {"ratio": 2, "ci_lo": 1.8, "ci_hi": 2.2, "floor": 0.1, "delta": 0.05, "n_pairs": 10, "verdict": "same", "reason": "none"}
-    assert "called same" in recomputed.unlike_its_interval(row, 1)
-    near = row | {"ci_lo": 0.97, "ci_hi": 1.03, "floor": 0.04}
-    assert not recomputed.unlike_its_interval(near, 1)
-    assert "called same" in recomputed.unlike_its_interval(near | {"floor": 0.1}, 1)
-    few = row | {"verdict": "cannot_tell", "reason": "too_few_rounds"}
-    assert "10 are enough" in recomputed.unlike_its_interval(few, 25)
-    assert not recomputed.unlike_its_interval(few, 26) and not recomputed.unlike_its_interval(few | {"n_pairs": 8}, 1)
+def test_a_verdict_is_that_of_its_samples():
+    def of(logs, level=0.05, floor=0.0, inputs=()):
+        return verdicts.ruling(logs, inputs or [0] * len(logs), level, floor, 0.05)[:2]
+
+    slower = [math.log(1.2 + 0.01 * i) for i in range(10)]
+    assert of(slower) == ("slower", "") and of([-log for log in slower]) == ("faster", "")
+    assert of(slower[:8]) == ("cannot_tell", "too_few_rounds")
+    assert of(slower, 2 / 2**10) == ("slower", "") and of(slower, 1.9 / 2**10) == ("cannot_tell", "too_few_rounds")
+    assert of(slower, floor=0.19) == ("slower", "")  # all of the interval, from 1.21 on, is beyond it
+    assert of(slower, floor=0.22) == ("cannot_tell", "too_noisy") and of([0.5 * log for log in slower], floor=0.15) == ("cannot_tell", "below_the_floor")
+    assert of([0.001 * log for log in slower]) == ("same", "") and of([0.001 * log for log in slower], floor=0.06) == ("cannot_tell", "below_the_floor")
+    assert of([*slower[:8], -0.2, -0.2]) == ("cannot_tell", "crosses_1")
+    assert of([*slower[:7], -0.2, -0.2, -0.2], inputs=[0] * 7 + [1] * 3) == ("cannot_tell", "crosses_1")
+
+
+def test_the_level_of_a_family_is_that_of_its_claims():
+    assert verdicts.sign_test([1.0] * 10) == 2 / 2**10 and verdicts.sign_test([1.0] * 9 + [-1.0]) == 22 / 2**10
+    assert verdicts.sign_test([0.0, 1.0, -1.0]) == 1
+    assert verdicts.level_of([0.001, 0.5, 0.9, 1], 0.05) == 0.05 / 4 and verdicts.level_of([0.001, 0.02, 0.9, 1], 0.05) == 0.05 / 2
+    assert verdicts.level_of([0.5, 0.9], 0.05) == 0.05 / 2
 
 
 def test_a_file_without_its_seal_is_said(root):
@@ -241,10 +273,11 @@ def test_a_file_without_its_seal_is_said(root):
 
 
 def test_intervals_are_those_of_the_median_and_hold_every_input():
-    assert recomputed.narrowest(5) == 0 and [recomputed.narrowest(n) for n in (6, 9, 12, 15, 20, 30)] == [1, 2, 3, 4, 6, 10]
+    assert verdicts.narrowest(5) == 0 and [verdicts.narrowest(n) for n in (6, 9, 12, 15, 20, 30)] == [1, 2, 3, 4, 6, 10]
     logs, inputs = [float(i) for i in range(15)], [i // 3 for i in range(15)]
-    assert recomputed.intervals(logs, [0] * 15)[0] == (3, 11)
-    assert recomputed.intervals(logs, inputs)[0] == (1, 13)
+    assert verdicts.interval(logs, [0] * 15) == pytest.approx((math.exp(3), math.exp(11)))
+    assert verdicts.interval(logs, inputs) == pytest.approx((math.exp(1), math.exp(13)))
+    assert verdicts.interval(logs[:5], [0] * 5) is None
 
 
 def test_a_frozen_track_without_its_file_is_said(root):

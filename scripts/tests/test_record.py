@@ -139,7 +139,16 @@ def test_the_status_is_the_programs(tmp_path):
 def test_a_result_file_is_told_from_a_recording():
     told = run(PROGRAM, "replay", PUBLISHED)
     assert told.returncode == 2
-    assert "effects.h5: it has no table format" in told.stderr and "result files are for `boxwood show`" in told.stderr
+    assert "effects.h5 is a result file, for `boxwood show`" in told.stderr
+
+
+def test_half_a_recording_is_not_called_a_result_file(tmp_path):
+    whole, half = tmp_path / "a.h5", tmp_path / "b.h5"
+    assert run(PROGRAM, "record", "--out", whole, USES_FCL).returncode == 0
+    half.write_bytes(whole.read_bytes()[:20_000])
+    told = run(PROGRAM, "replay", half)
+    assert told.returncode == 2
+    assert "b.h5" in told.stderr and "result file" not in told.stderr
 
 
 def test_bad_usage_is_told(tmp_path):
@@ -147,7 +156,8 @@ def test_bad_usage_is_told(tmp_path):
     there.write_text("mine")
     for arguments, said in (
         (("--out", there, USES_FCL), "is there already"),
-        (("--out", tmp_path / "no" / "a.h5", USES_FCL), "there is no folder"),
+        (("--out", tmp_path / "no" / "a.h5", USES_FCL), "a.h5: cannot be written: No such file or directory"),
+        (("--out", "/proc/a.h5", USES_FCL), "/proc/a.h5: cannot be written"),
         ((), "name a program"),
     ):
         told = run(PROGRAM, "record", *arguments)

@@ -1,6 +1,7 @@
 #include "trees/world/mesh_triage.h"
 
 #include "kernels/predicates/exact.h"
+#include "kernels/primitives/coordinate_limit.h"
 #include "trees/detail/places.h"
 
 #include <algorithm>
@@ -51,7 +52,11 @@ MeshTriage triage(const TriangleMesh& mesh) {
             is_used[v] = 1;
         if (std::ranges::any_of(t, [&](std::uint32_t v) { return !is_finite(mesh.vertices[v]); })) {
             found.not_finite.push_back(i);
-        } else if (!has_area(mesh.triangle(i))) {
+            continue;
+        }
+        if (std::ranges::any_of(t, [&](std::uint32_t v) { return !is_in_range(mesh.vertices[v]); }))
+            found.too_large.push_back(i);
+        if (!has_area(mesh.triangle(i))) {
             found.without_area.push_back(i);
         } else {
             Corners corners{places[t[0]], places[t[1]], places[t[2]]};

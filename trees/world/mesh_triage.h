@@ -19,10 +19,14 @@ struct MeshTriage {
     std::vector<std::uint32_t> not_finite;       ///< ... with a NaN or an infinity
     std::vector<std::uint32_t> without_area;     ///< points and segments, exactly
     std::vector<std::uint32_t> repeated; ///< the corners of an earlier one, in whatever order
+    /// Triangles beyond 2^60, which MeshTree and World refuse and MeshBvh takes; they are not bad.
+    std::vector<std::uint32_t> too_large;
     std::size_t open_edges = 0, non_manifold_edges = 0, turned_edges = 0;
 
     bool is_closed() const { return open_edges == 0 && non_manifold_edges == 0; }
-    bool is_clean() const { return bad_triangles() == 0 && is_closed() && turned_edges == 0; }
+    bool is_clean() const {
+        return bad_triangles() == 0 && too_large.empty() && is_closed() && turned_edges == 0;
+    }
     std::size_t bad_triangles() const {
         return missing_vertices.size() + not_finite.size() + without_area.size() + repeated.size();
     }

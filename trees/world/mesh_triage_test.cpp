@@ -49,6 +49,22 @@ TEST(MeshTriage, SetsBadTrianglesAside) {
     EXPECT_EQ(numbers.back(), 11u);
 }
 
+TEST(MeshTriage, WhatIsTooLargeIsNotBad) {
+    TriangleMesh mesh = cube_mesh(1);
+    mesh.vertices.front() = mesh.vertices.front() * 0x1p60f;
+    const MeshTriage found = triage(mesh);
+    std::vector<std::uint32_t> of_it;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+        if (std::ranges::count(mesh.triangles[i], 0u))
+            of_it.push_back(i);
+    EXPECT_EQ(found.too_large, of_it);
+    EXPECT_TRUE(found.is_closed());
+    EXPECT_FALSE(found.is_clean());
+    EXPECT_EQ(good_triangles(found).size(), 12u);
+    mesh.vertices.front() = mesh.vertices.front() * 0x1.fffffep-1f;
+    EXPECT_TRUE(triage(mesh).is_clean());
+}
+
 TEST(MeshTriage, AreaIsExact) {
     // On a line, where rounded arithmetic has room to say otherwise; and a hair off it.
     const float tiny = 0x1p-100f;

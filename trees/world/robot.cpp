@@ -132,11 +132,12 @@ void Robot::poses(std::span<const double> values, std::span<RigidTransform<doubl
         if (!is_finite(turn[0]) || !is_finite(turn[1]) || !is_finite(turn[2]))
             throw std::invalid_argument("link '" + links()[i].name +
                                         "' is turned by an angle that is not finite: a factor of a "
-                                        "mimic joint or a value is too large");
+                                        "mimic joint or a value is too large, or the root's pose "
+                                        "is none");
         if (!is_in_range(poses[i].translation))
             throw std::invalid_argument("link '" + links()[i].name +
-                                        "' lies beyond 2^60: an origin, a limit, a factor of a "
-                                        "mimic joint or a value is too large");
+                                        "' lies beyond 2^60: the root's pose, an origin, a limit, "
+                                        "a factor of a mimic joint or a value is too large");
     }
 }
 

@@ -42,8 +42,8 @@ class Robot {
 
     /// Forward kinematics: the pose of each link, the root's being `root`, as checked_pose gives
     /// one. Values beyond their ranges are taken as they are. Throws std::invalid_argument unless
-    /// there are n_values() finite values, room for exactly links().size() poses, and no link lies
-    /// beyond 2^60. Allocates nothing.
+    /// there are n_values() finite values, room for exactly links().size() poses, and each link is
+    /// turned by a finite angle and lies below 2^60. Allocates nothing.
     void poses(std::span<const double> values, std::span<RigidTransform<double>> poses,
                const RigidTransform<double>& root = {}) const;
 

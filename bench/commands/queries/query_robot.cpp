@@ -9,6 +9,7 @@
 #include "bench/commands/queries/robot_printer.h"
 #include "bench/commands/queries/surroundings.h"
 #include "bench/io/say.h"
+#include "bench/io/write_file.h"
 #include "kernels/primitives/coordinate_limit.h"
 #include "kernels/suggest.h"
 #include "scenes/robots/random_values.h"
@@ -23,8 +24,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 
 namespace boxwood::bench {
@@ -59,25 +58,10 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
     const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
-    // A plain file is written as a whole or not at all, as it may be the one that --srdf names; a
-    // pipe is not.
-    std::error_code error;
-    const std::filesystem::path target =
-        std::filesystem::weakly_canonical(*query.write_srdf, error);
-    const std::filesystem::file_status there = std::filesystem::status(target, error);
-    const bool is_plain = !exists(there) || is_regular_file(there);
-    const std::string written = target.string() + (is_plain ? ".part" : "");
-    std::ofstream file(written, std::ios::binary);
-    file << srdf_text(robot.robot.description(), robot.allowed.pairs(), original);
-    file.close();
-    error.clear();
-    if (file && is_plain)
-        std::filesystem::rename(written, target, error);
-    if (file && !error)
-        return;
-    if (is_plain && is_regular_file(std::filesystem::status(written, error)))
-        std::filesystem::remove(written, error);
-    throw BadInput(fmt::format("--write-srdf {}: cannot be written", *query.write_srdf));
+    // As a whole or not at all: it may be the file that --srdf names.
+    write_file(*query.write_srdf,
+               srdf_text(robot.robot.description(), robot.allowed.pairs(), original),
+               "--write-srdf");
 }
 
 double joint_value(std::string_view item, std::string_view text) {
@@ -174,11 +158,7 @@ void write_picture(const std::string& name, const std::string& robot,
                    const std::vector<LeastOfState>& least) {
     if (least.empty())
         throw BadInput("--svg: no two links can collide, so there is no distance to draw");
-    std::ofstream file(name, std::ios::binary);
-    file << robot_picture(robot, least);
-    file.close();
-    if (!file)
-        throw BadInput(fmt::format("--svg {}: cannot be written", name));
+    write_file(name, robot_picture(robot, least), "--svg");
 }
 
 } // namespace

@@ -157,6 +157,13 @@ TEST_F(QueryRobot, ObstaclesAreHitOrClear) {
     EXPECT_THAT(complaint(), HasSubstr("ball:.5: no such file"));
     query_.obstacles = {"d=sphere:.5"};
     EXPECT_THAT(complaint(), HasSubstr("--obstacle d=sphere:.5: a link is called d"));
+    const fs::path there = fs::current_path();
+    fs::current_path(folder_); // a file's name alone
+    put("d", "");
+    query_.obstacles = {"d"};
+    EXPECT_THAT(complaint(),
+                HasSubstr("a link is called d; give the obstacle another name, NAME=d"));
+    fs::current_path(there);
     query_.obstacles = {(folder_ / "none.obj").string()};
     EXPECT_THAT(complaint(), HasSubstr("none.obj"));
 }
@@ -236,23 +243,9 @@ TEST_F(QueryRobot, SamplesProposePairsThatCanBeWritten) {
                                     "none of 200 samples, seed 1\"}"));
     query_.write_srdf = "/nonexistent/out.srdf";
     EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
-    const std::string full = (folder_ / "full.srdf").string(); // a link to a full disk stays one
-    std::filesystem::create_symlink("/dev/full", full);
-    query_.write_srdf = full;
-    EXPECT_THAT(complaint(), HasSubstr("full.srdf: cannot be written"));
-    EXPECT_TRUE(std::filesystem::is_symlink(full));
-    const std::string kept = *query_.files.srdf; // with no place for what would replace it
-    std::filesystem::create_directory(kept + ".part");
-    query_.write_srdf = kept;
-    EXPECT_THAT(complaint(), HasSubstr("cannot be written"));
-    query_.write_srdf.reset();
+    query_.write_srdf = query_.files.srdf; // which is read before it is replaced
+    query_.samples = 100;
     EXPECT_THAT(answer(), HasSubstr("none of 200 samples"));
-    std::filesystem::remove(kept + ".part");
-    const std::string link = (folder_ / "link.srdf").string();
-    std::filesystem::create_symlink(kept, link);
-    query_.write_srdf = link;
-    EXPECT_THAT(answer(), HasSubstr("none of 200 samples"));
-    EXPECT_TRUE(std::filesystem::is_symlink(link) && !std::filesystem::exists(kept + ".part"));
 }
 
 TEST_F(QueryRobot, BadFilesAreBadInput) {

@@ -79,9 +79,10 @@ AllowedByUser::AllowedByUser(std::span<const std::string> allow, std::span<const
             throw BadInput(
                 fmt::format("--obstacle {}: another one is called {}", text, obstacle.name));
         const auto links = robot.robot.links();
-        if (std::ranges::find(links, obstacle.name, &LinkDescription::name) != links.end() &&
-            obstacle.name != text)
-            throw BadInput(fmt::format("--obstacle {}: a link is called {}", text, obstacle.name));
+        if (std::ranges::find(links, obstacle.name, &LinkDescription::name) != links.end())
+            throw BadInput(fmt::format("--obstacle {}: a link is called {}; give the obstacle "
+                                       "another name, NAME={}",
+                                       text, obstacle.name, obstacle.body));
         obstacles.push_back(std::move(obstacle));
     }
     for (const std::string& text : allow)

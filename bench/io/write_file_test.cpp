@@ -1,0 +1,105 @@
+#include "bench/io/write_file.h"
+
+#include "bench/io/bad_input.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace boxwood::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class WriteFile : public testing::Test {
+  protected:
+    WriteFile() { fs::create_directories(folder_); }
+    ~WriteFile() override { fs::remove_all(folder_); }
+
+    std::string in_folder(const char* name) const { return (folder_ / name).string(); }
+    static std::string read(const fs::path& file) {
+        std::ifstream in(file, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    std::size_t files() const {
+        return static_cast<std::size_t>(
+            std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+    }
+    static std::string complaint(const std::string& name) {
+        try {
+            write_file(name, "new", "--out");
+        } catch (const BadInput& error) {
+            return error.what();
+        }
+        return "no error";
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / fmt::format("boxwood-write-{}", ::getpid());
+};
+
+TEST_F(WriteFile, ReplacesAPlainFileAndKeepsItsPermissions) {
+    const std::string file = in_folder("plain");
+    write_file(file, "old", "--out");
+    EXPECT_EQ(read(file), "old");
+    const fs::perms mine = fs::perms::owner_read | fs::perms::owner_write;
+    fs::permissions(file, mine);
+    write_file(file, "new", "--out");
+    EXPECT_EQ(read(file), "new");
+    EXPECT_EQ(fs::status(file).permissions(), mine);
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, GoesWhereALinkLeads) {
+    fs::create_directory(folder_ / "deep");
+    fs::create_symlink("deep/there", in_folder("link"));
+    fs::create_symlink("link", in_folder("second"));
+    for (const char* text : {"made", "replaced"}) {
+        write_file(in_folder("second"), text, "--out");
+        EXPECT_EQ(read(folder_ / "deep" / "there"), text);
+    }
+    EXPECT_TRUE(fs::is_symlink(in_folder("link")) && fs::is_symlink(in_folder("second")));
+    EXPECT_FALSE(fs::is_symlink(folder_ / "deep" / "there"));
+}
+
+TEST_F(WriteFile, WritesIntoAPipe) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    write_file(fmt::format("/proc/self/fd/{}", ends[1]), "through", "--out");
+    std::array<char, 16> got{};
+    EXPECT_EQ(::read(ends[0], got.data(), got.size()), 7);
+    EXPECT_STREQ(got.data(), "through");
+    ::close(ends[0]);
+    ::close(ends[1]);
+}
+
+TEST_F(WriteFile, SaysWhyItCannotAndLosesNothing) {
+    EXPECT_THAT(complaint(in_folder("none/file")), HasSubstr("cannot be written: No such file"));
+    fs::create_symlink("/dev/full", in_folder("full"));
+    EXPECT_THAT(complaint(in_folder("full")),
+                HasSubstr("--out " + in_folder("full") + ": cannot be written: No space left"));
+    EXPECT_TRUE(fs::is_symlink(in_folder("full")));
+    fs::create_symlink("circle", in_folder("circle"));
+    EXPECT_THAT(complaint(in_folder("circle")), HasSubstr("symbolic links"));
+    EXPECT_THAT(complaint(folder_.string()), HasSubstr("Is a directory"));
+    EXPECT_EQ(files(), 2u);
+}
+
+/// With no place for what would replace it: its name is another's.
+TEST_F(WriteFile, LeavesFilesOfOthersAlone) {
+    const std::string file = in_folder("kept"), others = fmt::format("{}.tmp-{}", file, ::getpid());
+    write_file(file, "old", "--out");
+    std::ofstream(others) << "another's";
+    EXPECT_THAT(complaint(file), HasSubstr("File exists"));
+    EXPECT_EQ(read(file), "old");
+    EXPECT_EQ(read(others), "another's");
+}
+
+} // namespace
+} // namespace boxwood::bench
