@@ -274,7 +274,8 @@ def tally_text(run):
     """How many of the questions asked of rivals are lost, on the first screen."""
     races = [finding for finding in run.findings if finding.is_headline and finding.topic in (RACE, CALL)]
     lost = [finding for finding in races if finding.is_loss]
-    return f"Boxwood loses {len(lost) or 'none'} of {len(races)} questions, losses first. " if races else ""
+    of_all = f"Boxwood loses {len(lost) or 'none'} of {len(races)} questions"
+    return f"{of_all}, which stand first. " if lost else f"{of_all}. " if races else ""
 
 
 def findings_section_html(run):

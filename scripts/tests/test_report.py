@@ -120,7 +120,7 @@ def test_it_says_what_was_found(page):
     text = " ".join(Page(page).text)
     assert "Test CPU & <Core> 9" in text  # escaped, so that it comes back whole
     assert "noise floor" in text and "quiet enough" in text
-    findings = text.split("questions, losses first", 1)[1]
+    findings = text.split("questions, which stand first", 1)[1]
     assert "LOSES" in findings and findings.index("LOSES") < findings.index(" wins ")
     assert "cheapest, a call" in text and "what they require" in text
     assert "2 missing, 0 extra (pair 3,8)" in text
