@@ -5,6 +5,7 @@
 #include "bench/commands/option_ranges.h"
 #include "bench/io/read_results.h"
 #include "bench/io/say.h"
+#include "bench/io/write_file.h"
 #include "bench/running/sweep.h"
 #include "kernels/suggest.h"
 #include "scenes/moving/recording.h"
@@ -190,11 +191,7 @@ class Chooser {
                 sweep_.run(blocks, options_.out, std::max(10., 60 * options_.minutes - spent)))
             return code;
         const Advice advice = advise(read_results(options_.out), options_.queries);
-        std::ofstream svg(picture);
-        svg << advice_picture(advice);
-        if (!svg.flush())
-            throw BadInput(
-                fmt::format("choose: the picture '{}' cannot be written", picture.string()));
+        write_file(picture, advice_picture(advice), "choose: the picture " + picture.string());
         std::cout << (options_.as_json ? advice_json(advice) : advice_text(advice));
         if (!options_.as_json)
             std::cout << fmt::format("\nevidence  {}\npicture   {}\n", options_.out.string(),

@@ -5,6 +5,7 @@
 #include "bench/io/bad_input.h"
 #include "bench/io/json.h"
 #include "bench/io/text_table.h"
+#include "bench/io/write_file.h"
 #include "bench/machine/environment.h"
 #include "bench/tasks/contender.h"
 #include "bench/tasks/instruction_sets.h"
@@ -17,7 +18,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 #include <system_error>
@@ -262,7 +262,8 @@ std::string doctor_of_mesh(const TriangleMesh& mesh, const std::string& file, bo
     text += fmt::format("  open edges                   {}\n", found.open_edges);
     text += fmt::format("  edges of three and more      {}\n", found.non_manifold_edges);
     text += fmt::format("  edges wound both ways        {}\n", found.turned_edges);
-    text += may_be_solid ? "It is closed: it may be a solid (query collide --solid, contains).\n"
+    text += may_be_solid && !found.too_large.empty() ? "It is closed.\n"
+            : may_be_solid ? "It is closed: it may be a solid (query collide --solid).\n"
             : found.is_closed()
                 ? "It is closed but for its bad triangles (NaN or inf, without area, repeated): "
                   "without them (--out FILE.obj) it may be a solid.\n"
@@ -277,14 +278,12 @@ void write_good_triangles(const TriangleMesh& mesh, const std::string& out) {
     if (std::filesystem::exists(out))
         throw BadInput(fmt::format("--out {}: is there already; name a new file", out));
     const TriangleMesh good = without_bad_triangles(mesh, triage(mesh));
-    std::ofstream text(out, std::ios::binary);
+    std::string text;
     for (const Vec3<float>& v : good.vertices)
-        text << fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+        text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
     for (const auto& [a, b, c] : good.triangles)
-        text << fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
-    text.close();
-    if (!text)
-        throw BadInput(fmt::format("--out {}: cannot be written", out));
+        text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
+    write_file(out, text, "--out " + out);
 }
 
 void add_doctor(CLI::App& app, int&) {

@@ -2,6 +2,7 @@
 
 #include "bench/commands/command.h"
 #include "bench/commands/queries/query.h"
+#include "bench/io/write_file.h"
 #include "scenes/moving/scene_file.h"
 #include "scenes/sampling/rays.h"
 #include "scenes/scene.h"
@@ -64,10 +65,7 @@ template <class Explain> void print(const ExplainOptions& options, const Explain
         std::filesystem::file_size(options.svg) > 0 && std::ifstream(options.svg).get() != '<')
         throw BadInput(fmt::format("explain: --svg '{}' is there and no picture; name another file",
                                    options.svg));
-    std::ofstream out(options.svg);
-    out << answer.svg;
-    if (!out.flush())
-        throw BadInput(fmt::format("explain: --svg '{}' cannot be written", options.svg));
+    write_file(options.svg, answer.svg, "explain: --svg " + options.svg);
     std::cout << fmt::format("\npicture  {}\n", options.svg);
 }
 

@@ -2,6 +2,7 @@
 #include "bench/commands/option_ranges.h"
 #include "bench/io/say.h"
 #include "bench/io/scene_picture.h"
+#include "bench/io/write_file.h"
 #include "scenes/moving/moving_scene.h"
 
 #include <CLI/CLI.hpp>
@@ -9,7 +10,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -114,12 +114,7 @@ void show_scene(const SceneOptions& options) {
     }
     if (!is_drawn)
         return;
-    std::ofstream out(svg, std::ios::binary);
-    out << picture.svg();
-    out.close();
-    if (!out)
-        throw BadInput(
-            fmt::format("{}: cannot write it: does the folder exist, is the disk full?", svg));
+    write_file(svg, picture.svg(), "--svg " + svg);
     fmt::print("{}\n", svg);
 }
 

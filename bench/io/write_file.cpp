@@ -2,70 +2,101 @@
 
 #include "bench/io/bad_input.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <filesystem>
+#include <iostream>
 #include <system_error>
+#include <utility>
 
 namespace boxwood::bench {
 namespace {
 
 namespace fs = std::filesystem;
 
-void check(bool is_done) {
+void check(bool is_done, int why = errno) {
     if (!is_done)
-        throw std::system_error(errno, std::generic_category());
+        throw std::system_error(why, std::generic_category());
 }
 
-/// Closes the file in any case.
-void write_all(std::FILE* file, std::string_view content) {
-    check(file != nullptr);
-    const bool is_written = std::fwrite(content.data(), 1, content.size(), file) == content.size();
-    const int why = errno;
-    const bool is_closed = std::fclose(file) == 0;
-    if (!is_written)
-        errno = why;
-    check(is_written && is_closed);
-}
-
-/// Where a file is or will be; the links are no circle.
-fs::path end_of_links(fs::path file) {
-    while (fs::is_symlink(file))
-        file = file.parent_path() / fs::read_symlink(file);
-    return file;
-}
-
-void replace(const fs::path& file, fs::file_status there, std::string_view content) {
-    check(!exists(there) || ::access(file.c_str(), W_OK) == 0);
-    const std::string temporary = fmt::format("{}.tmp-{}", file.string(), ::getpid());
-    std::FILE* const made = std::fopen(temporary.c_str(), "wbx"); // none that is another's
-    try {
-        write_all(made, content);
-        if (exists(there))
-            fs::permissions(temporary, there.permissions());
-        fs::rename(temporary, file);
-    } catch (...) {
-        std::error_code ignored;
-        if (made)
-            fs::remove(temporary, ignored);
-        throw;
+class Descriptor {
+  public:
+    explicit Descriptor(int fd) : fd_(fd) { check(fd >= 0); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor() {
+        if (fd_ >= 0)
+            ::close(fd_);
     }
+    operator int() const { return fd_; }
+    /// May tell what the disk did not take.
+    void close() { check(::close(std::exchange(fd_, -1)) == 0); }
+
+  private:
+    int fd_;
+};
+
+bool is_file_of(int fd, const struct stat& file) {
+    struct stat own {};
+    return ::fstat(fd, &own) == 0 && own.st_dev == file.st_dev && own.st_ino == file.st_ino;
+}
+
+void write_all(int fd, std::string_view content) {
+    while (!content.empty()) {
+        const ssize_t n = ::write(fd, content.data(), content.size());
+        if (n < 0 && errno == EINTR)
+            continue;
+        check(n >= 0);
+        content.remove_prefix(static_cast<std::size_t>(n));
+    }
+}
+
+/// The room for it comes first.
+void replace_content(int fd, const struct stat& before, std::string_view content) {
+    const auto size = static_cast<off_t>(content.size());
+    if (size > before.st_size) {
+        int why = 0;
+        do
+            why = ::posix_fallocate(fd, 0, size);
+        while (why == EINTR);
+        if (why != 0 && why != EOPNOTSUPP) {
+            check(::ftruncate(fd, before.st_size) == 0);
+            check(false, why);
+        }
+    }
+    write_all(fd, content);
+    check(::ftruncate(fd, size) == 0);
 }
 
 } // namespace
 
-void write_file(const std::string& name, std::string_view content, std::string_view option) try {
-    const fs::file_status there = fs::status(name);
-    if (exists(there) && !is_regular_file(there))
-        write_all(std::fopen(name.c_str(), "wb"), content);
-    else
-        replace(end_of_links(name), there, content);
+void write_file(const fs::path& name, std::string_view content, std::string_view what) try {
+    const bool is_new = !fs::is_symlink(name) && !fs::exists(name);
+    try {
+        Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+        struct stat found {};
+        check(::fstat(file, &found) == 0);
+        for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+            if (is_file_of(output, found)) {
+                std::cout.flush();
+                return write_all(output, content);
+            }
+        if (S_ISREG(found.st_mode))
+            replace_content(file, found, content);
+        else
+            write_all(file, content);
+        file.close();
+    } catch (const std::system_error&) {
+        std::error_code ignored;
+        if (is_new)
+            fs::remove(name, ignored);
+        throw;
+    }
 } catch (const std::system_error& error) {
-    throw BadInput(
-        fmt::format("{} {}: cannot be written: {}", option, name, error.code().message()));
+    throw BadInput(fmt::format("{}: cannot be written: {}", what, error.code().message()));
 }
 
 } // namespace boxwood::bench

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <string>
+#include <filesystem>
 #include <string_view>
 
 namespace boxwood::bench {
 
-/// Writes what `option` names: a plain file as a whole or not at all, with the permissions of the
-/// one that it replaces, and where a link leads; a pipe or a device as it is. Throws BadInput that
-/// says why.
-void write_file(const std::string& name, std::string_view content, std::string_view option);
+/// Writes a file, a pipe or a device, and where a link leads; what is the program's own output,
+/// too, follows what was printed there. A plain file for which the disk has no room keeps what it
+/// has. Throws BadInput: "`what`: cannot be written: why".
+void write_file(const std::filesystem::path& name, std::string_view content, std::string_view what);
 
 } // namespace boxwood::bench

@@ -2,14 +2,18 @@
 
 #include "bench/io/bad_input.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 
 namespace boxwood::bench {
@@ -34,7 +38,7 @@ class WriteFile : public testing::Test {
     }
     static std::string complaint(const std::string& name) {
         try {
-            write_file(name, "new", "--out");
+            write_file(name, "new content", "--out " + name);
         } catch (const BadInput& error) {
             return error.what();
         }
@@ -44,16 +48,20 @@ class WriteFile : public testing::Test {
     fs::path folder_ = fs::temp_directory_path() / fmt::format("boxwood-write-{}", ::getpid());
 };
 
-TEST_F(WriteFile, ReplacesAPlainFileAndKeepsItsPermissions) {
+TEST_F(WriteFile, ReplacesTheContentAndNothingElse) {
     const std::string file = in_folder("plain");
-    write_file(file, "old", "--out");
+    write_file(file, "old", "it");
     EXPECT_EQ(read(file), "old");
     const fs::perms mine = fs::perms::owner_read | fs::perms::owner_write;
     fs::permissions(file, mine);
-    write_file(file, "new", "--out");
-    EXPECT_EQ(read(file), "new");
+    fs::create_hard_link(file, in_folder("same"));
+    for (const char* text : {"longer than it was", "new"}) {
+        write_file(file, text, "it");
+        EXPECT_EQ(read(file), text);
+        EXPECT_EQ(read(in_folder("same")), text);
+    }
     EXPECT_EQ(fs::status(file).permissions(), mine);
-    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(files(), 2u);
 }
 
 TEST_F(WriteFile, GoesWhereALinkLeads) {
@@ -61,7 +69,7 @@ TEST_F(WriteFile, GoesWhereALinkLeads) {
     fs::create_symlink("deep/there", in_folder("link"));
     fs::create_symlink("link", in_folder("second"));
     for (const char* text : {"made", "replaced"}) {
-        write_file(in_folder("second"), text, "--out");
+        write_file(in_folder("second"), text, "it");
         EXPECT_EQ(read(folder_ / "deep" / "there"), text);
     }
     EXPECT_TRUE(fs::is_symlink(in_folder("link")) && fs::is_symlink(in_folder("second")));
@@ -71,7 +79,7 @@ TEST_F(WriteFile, GoesWhereALinkLeads) {
 TEST_F(WriteFile, WritesIntoAPipe) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
-    write_file(fmt::format("/proc/self/fd/{}", ends[1]), "through", "--out");
+    write_file(fmt::format("/proc/self/fd/{}", ends[1]), "through", "it");
     std::array<char, 16> got{};
     EXPECT_EQ(::read(ends[0], got.data(), got.size()), 7);
     EXPECT_STREQ(got.data(), "through");
@@ -91,14 +99,36 @@ TEST_F(WriteFile, SaysWhyItCannotAndLosesNothing) {
     EXPECT_EQ(files(), 2u);
 }
 
-/// With no place for what would replace it: its name is another's.
-TEST_F(WriteFile, LeavesFilesOfOthersAlone) {
-    const std::string file = in_folder("kept"), others = fmt::format("{}.tmp-{}", file, ::getpid());
-    write_file(file, "old", "--out");
-    std::ofstream(others) << "another's";
-    EXPECT_THAT(complaint(file), HasSubstr("File exists"));
+TEST_F(WriteFile, AFullDiskLeavesWhatWasThere) {
+    const std::string file = in_folder("kept");
+    write_file(file, "old", "it");
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit few{4, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &few), 0);
+    const std::string of_old = complaint(file), of_none = complaint(in_folder("none"));
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, ignored);
+    EXPECT_THAT(of_old, HasSubstr("cannot be written: File too large"));
+    EXPECT_THAT(of_none, HasSubstr("cannot be written: File too large"));
     EXPECT_EQ(read(file), "old");
-    EXPECT_EQ(read(others), "another's");
+    EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(WriteFile, FollowsWhatWasPrintedWhereItIsTheOutput) {
+    const std::string file = in_folder("output");
+    const int kept = ::dup(STDOUT_FILENO);
+    const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    std::cout.flush();
+    ::dup2(out, STDOUT_FILENO);
+    std::cout << "before, ";
+    write_file("/dev/stdout", "content", "it");
+    std::cout << ", after" << std::flush;
+    ::dup2(kept, STDOUT_FILENO);
+    ::close(kept);
+    ::close(out);
+    EXPECT_EQ(read(file), "before, content, after");
 }
 
 } // namespace

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from boxwood.results.words import interval_text
 
 PEERS, OURS, THREADS, STAGES, DEVICES, ERRORS = "peers", "ours", "threads", "stages", "devices", "errors"  # families of /compare
-RACE, CALL = "race", "call"  # topics of /findings about times against rivals: of trees and meshes, of kernels alone
+RACE, CALL, KERNEL = "race", "call", "kernel"  # topics of /findings about rivals: times of trees and meshes, of kernels; who is cheapest and right
 
 
 @dataclass(frozen=True)

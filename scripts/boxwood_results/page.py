@@ -3,7 +3,7 @@
 from html import escape
 
 from . import history, registry
-from .findings import CALL, RACE, comparison_rows
+from .findings import CALL, KERNEL, RACE, comparison_rows
 from .inline_svg import InlineSvgs
 from .picture import cell_text, svgs_of_panels
 from .selection import wrong_text
@@ -272,7 +272,7 @@ def lacking_html(lacking):
 
 def tally_text(run):
     """How many of the questions asked of rivals are lost, on the first screen."""
-    races = [finding for finding in run.findings if finding.is_headline and finding.topic in (RACE, CALL)]
+    races = [finding for finding in run.findings if finding.is_headline and finding.topic in (RACE, CALL, KERNEL)]
     lost = [finding for finding in races if finding.is_loss]
     of_all = f"Boxwood loses {len(lost) or 'none'} of {len(races)} questions"
     return f"{of_all}, which stand first. " if lost else f"{of_all}. " if races else ""

@@ -10,7 +10,7 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import dropin_times, marks, picture, published_tables, python_times, recomputed, registry, verdicts
+from . import dropin_times, marks, picture, published_tables, python_times, recomputed, rederived, registry, verdicts
 from .checkout import machine as machine_of
 from .picture import cell_text
 from .published_tables import against_ourselves, against_peers, kernels_of, markdown
@@ -265,9 +265,6 @@ def draw(one, root, folder):
     return picture.save_png(made, folder / file, cell_text(run.source.attrs["run_uuid"]))
 
 
-ROUNDS_OF_AN_INPUT = 3  # of which an interval has to hold the median
-
-
 def faults(file, run, on_device=False):
     """Why a measured file is not fit to be published, as lines of text."""
     found = []
@@ -275,7 +272,7 @@ def faults(file, run, on_device=False):
         found.append(f"{file.stat().st_size:,} bytes; at most {MAX_BYTES:,}")
     if not run.source.is_sealed:
         found.append("changed after it was written (its seal is gone)")
-    wrong = recomputed.differences(run.source)
+    wrong = [*recomputed.differences(run.source), *rederived.differences(file, run.source)]
     if wrong:
         found.append(f"{len(wrong)} of its numbers do not follow from its samples; the first: {wrong[0]}")
     if len({(*machine_of(row), row["gpu"], row["git_commit"]) for row in run.source["env"]}) > 1:
@@ -299,9 +296,9 @@ def faults(file, run, on_device=False):
     if run.rounds < wanted and not on_device:
         found.append(f"{run.rounds} rounds; {wanted} are wanted, by its sweep or for a verdict")
     inputs = sweep.get("inputs", 1)
-    if inputs > 1 and run.rounds < ROUNDS_OF_AN_INPUT * inputs:
-        found.append(f"{run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {ROUNDS_OF_AN_INPUT} rounds of each, "
-                     f"--rounds {ROUNDS_OF_AN_INPUT * inputs}")
+    if inputs > 1 and run.rounds < verdicts.MIN_ROUNDS_OF_INPUT * inputs:
+        found.append(f"{run.rounds} rounds for {inputs} inputs: its intervals cover inputs from {verdicts.MIN_ROUNDS_OF_INPUT} rounds of each, "
+                     f"--rounds {verdicts.MIN_ROUNDS_OF_INPUT * inputs}")
     return [f"{file}: {fault}" for fault in found]
 
 

@@ -1,5 +1,6 @@
 """Ratios, intervals, noise floors and verdicts of /compare, from the samples once more: a second way to the numbers of bench/analysis,
-in another language. Only which of two layouts of memory a row depends on (`memory_layout`) is taken as the file has it."""
+in another language. Taken as the file has them: statuses, classes, which rows there are, and whether a row depends on the layout of memory
+(`memory_layout`). `rederived.py` holds those to what the program derives."""
 
 import math
 from collections import defaultdict
@@ -149,7 +150,7 @@ def differences(source, times, twins):
         name = f"/compare, cell {row['cell_b']} against {row['cell_a']}, {row['phase']}"
         a, b = (times.get((row[side], row["phase"]), {}) for side in ("cell_a", "cell_b"))
         both = pairs(a, b)
-        logs, inputs = [math.log(y / x) for _, x, y in both], [input_of[key] for key, *_ in both]
+        logs, inputs = [math.log(y / x) for _, x, y in both], [input_of.get(key, 0) for key, *_ in both]
         statuses = [cells[row[side]]["status"] for side in ("cell_a", "cell_b")]
         floor = floors.of_both(row["cell_a"], row["cell_b"], row["phase"])
         if len(logs) != row["n_pairs"] or not logs:

@@ -20,7 +20,7 @@ COLUMNS = {column for columns in (*MEASURED.values(), *DERIVED.values()) for col
 MEMBERS = {"ns", "wrong", "maybe", "error", "per_million", "unexcluded", "tiers", "mid", "lo", "hi", "gain", "with_ns",
            "without_ns", "extra_ns", "times_fastest", "noise_floor", "n", "n_queries", "counters", "frame_stats", "work"}
 LAYOUT = {"labels.py", "style.py"}  # where texts and axes stand; they know no result file
-CHECKS = {"recomputed.py", "verdicts.py"}  # hold what a file says against its samples, and show nothing
+CHECKS = {"recomputed.py", "rederived.py", "verdicts.py"}  # hold what a file says against its samples, and show nothing
 COMPUTES = {"python_times.py", "dropin_times.py"}  # of samples that no result file holds
 MEANS = {"marks.py"}  # of ratios that no one result file holds together
 ALLOWED = {

@@ -75,8 +75,8 @@ def test_screen_all_json_and_report_have_the_findings_of_the_file(file):
             assert headings[name] in everything and page.escape(headings[name]) in report
     for texts in reported:
         assert all(text in everything and page.escape(text) in report for text in texts)
-    races = [row for row in shown if row["topic"] in ("race", "call") and row["is_headline"]]
-    lost = sum("LOSES" in row["together"] + row["alone"] for row in races)
+    races = [row for row in shown if row["topic"] in ("race", "call", "kernel") and row["is_headline"]]
+    lost = sum(row["is_loss"] for row in races)
     assert f"loses {lost or 'none'} of {len(races)} questions" in page.tally_text(results)
     headlines = [f for f in results.findings if f.is_headline]
     on_screen = [f for f in headlines

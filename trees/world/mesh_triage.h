@@ -19,7 +19,7 @@ struct MeshTriage {
     std::vector<std::uint32_t> not_finite;       ///< ... with a NaN or an infinity
     std::vector<std::uint32_t> without_area;     ///< points and segments, exactly
     std::vector<std::uint32_t> repeated; ///< the corners of an earlier one, in whatever order
-    /// Triangles beyond 2^60, which MeshTree and World refuse and MeshBvh takes; they are not bad.
+    /// Triangles beyond 2^60, which MeshTree and World refuse (MeshBvh: beyond 2^126). None is bad.
     std::vector<std::uint32_t> too_large;
     std::size_t open_edges = 0, non_manifold_edges = 0, turned_edges = 0;
 

@@ -58,10 +58,9 @@ void propose_allowed(const RobotQuery& query, const LinkNarrowPhase& narrow_phas
 
 void write_allowed(const RobotQuery& query, const RobotCase& robot) {
     const std::string original = query.files.srdf ? read_file(*query.files.srdf, "SRDF") : "";
-    // As a whole or not at all: it may be the file that --srdf names.
     write_file(*query.write_srdf,
                srdf_text(robot.robot.description(), robot.allowed.pairs(), original),
-               "--write-srdf");
+               "--write-srdf " + *query.write_srdf);
 }
 
 double joint_value(std::string_view item, std::string_view text) {
@@ -158,7 +157,7 @@ void write_picture(const std::string& name, const std::string& robot,
                    const std::vector<LeastOfState>& least) {
     if (least.empty())
         throw BadInput("--svg: no two links can collide, so there is no distance to draw");
-    write_file(name, robot_picture(robot, least), "--svg");
+    write_file(name, robot_picture(robot, least), "--svg " + name);
 }
 
 } // namespace

@@ -59,7 +59,7 @@ DERIVED = {
     ),
     "topics": ("topic", "title", "question", "together", "alone", "certainty"),
     "findings": (
-        "place", "topic", "is_headline", "task", "threads", "class", "question", "together", "alone", "certainty",
+        "place", "topic", "is_headline", "is_loss", "task", "threads", "class", "question", "together", "alone", "certainty",
         "ours", "rival", "ours_alone", "rival_alone",
     ),
     "health": (
@@ -83,7 +83,7 @@ DERIVED = {
     "drift": ("shard_id", "n", "disturbed", "off_median", "is_farthest"),
     "device_gains": (
         "scene_id", "task", "n", "cpu_1_ns", "cpu_2_ns", "cpu_all_ns", "threads", "end_to_end_ns", "resident_ns",
-        "graph_ns", "device_ns", "limit_ns", "cell_1", "cell_2", "cell_all", "cell_device", "cell_resident", "cell_graph",
+        "graph_ns", "device_ns", "limit_ns", "cell_1", "cell_2", "cell_all", "cell_cpu", "cell_device", "cell_resident", "cell_graph", "ratio", "verdict",
     ),
     "device_break_even": ("scene_id", "task", "wins_from", "loses_to", "words", "cell_cpu", "cell_device"),
 }
