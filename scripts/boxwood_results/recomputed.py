@@ -21,6 +21,7 @@ def rounds_by_cell(source, of_twins=False):
     for cell in {cell for cell, _ in found} if not of_twins else ():
         for phase, (first, second) in SUMS.items():
             if (cell, first) in found and (cell, second) in found:
+                found[cell, phase] = defaultdict(list)
                 for key, a, b in pairs(found[cell, first], found[cell, second]):
                     found[cell, phase][key].append(a + b)
     return found
@@ -29,16 +30,17 @@ def rounds_by_cell(source, of_twins=False):
 def differences(source):
     """What the tables that are published do not have from /samples and from what was counted, as texts; none if all follows."""
     times = rounds_by_cell(source)
-    return [*medians(source, times), *verdicts.differences(source, times, rounds_by_cell(source, of_twins=True)), *kernels(source, times), *kernel_costs(source), *effect_costs(source, times),
-            *device_gains(source, times)]
+    twins = rounds_by_cell(source, of_twins=True)
+    return [*medians(source, times), *verdicts.differences(source, times, twins), *kernels(source, times), *kernel_costs(source),
+            *effect_costs(source, times), *device_gains(source, times)]
 
 
 def kernels(source, times):
     for row in source["kernels"]:
-        values = [ns for of_round in times.get((row["cell_id"], "query"), {}).values() for ns in of_round]
+        took = own_median(times, row["cell_id"], "query")
         n, wrong = int(row["n"]), sum(int(row[column]) for column in ("false_pos", "false_neg", "bound_violations"))
         name = f"/kernels, cell {row['cell_id']}, {row['kernel']} on {row['family']}"
-        if n and values and not is_near(median(values) / n, row["ns"]):
+        if n and took == took and not is_near(took / n, row["ns"]):
             yield f"{name}: not the time of its samples"
         if wrong != row["wrong"] or (n and not is_near(1e6 * wrong / n, row["wrong_per_million"])):
             yield f"{name}: not as many wrong as were counted"
@@ -71,6 +73,11 @@ def kernel_costs(source):
         yield f"/kernel_costs, {task}, {panel}, {label}: missing"
 
 
+def own_median(times, cell, phase):
+    values = [ns for of_round in times.get((cell, phase), {}).values() for ns in of_round]
+    return median(values) if values else math.nan
+
+
 def shared(times, cell, other, phase):
     """The median of a cell in the rounds that another has, too."""
     own, of_other = times.get((cell, phase), {}), times.get((other, phase), {})
@@ -88,7 +95,10 @@ def compared(source, family):
 
 
 def is_of(row, comparison, columns=("ratio", "ci_lo", "ci_hi")):
-    return row["ratio"] != row["ratio"] or (comparison is not None and all(row[column] == comparison[column] for column in columns))
+    if comparison is None:
+        return row["ratio"] != row["ratio"]
+    both = [(row[column], comparison[column]) for column in columns]
+    return all(a == b or (a != a and b != b) for a, b in both)  # numbers may be NaN
 
 
 def effect_costs(source, times):
@@ -96,7 +106,7 @@ def effect_costs(source, times):
     for row in source["effect_costs"]:
         of, without, total = row["cell_with"], row["cell_without"], totals[row["cell_with"]]
         name = f"/effect_costs, cell {of}, {row['what']}"
-        if not (is_near(shared(times, of, without, total), row["with_ns"]) and is_near(shared(times, without, of, total), row["without_ns"])):
+        if not (is_near(own_median(times, of, total), row["with_ns"]) and is_near(own_median(times, without, total), row["without_ns"])):
             yield f"{name}: not the medians of its samples"
         if not is_of(row, ratios.get((without, of, total))):
             yield f"{name}: not the ratio of its comparison"
@@ -118,6 +128,6 @@ def device_gains(source, times):
 
 def medians(source, times):
     for row in source["medians"]:
-        values = [ns for of_round in times.get((row["cell_id"], row["phase"]), {}).values() for ns in of_round]
-        if len(values) != row["n"] or not is_near(median(values), row["median_ns"]):
+        n = sum(len(of_round) for of_round in times.get((row["cell_id"], row["phase"]), {}).values())
+        if n != row["n"] or not is_near(own_median(times, row["cell_id"], row["phase"]), row["median_ns"]):
             yield f"/medians, cell {row['cell_id']}, {row['phase']}: not the median of its samples"

@@ -126,6 +126,31 @@ def test_without_a_program_no_file_is_derived_again(root, monkeypatch):
     assert rederived.program() is None and rederived.differences(root / "none.h5", None) == []
 
 
+@pytest.mark.parametrize("status, verdict, reason, ratio", [(b"wrong", b"wrong", b"", math.nan), (b"unchecked", b"cannot_tell", b"unchecked", 0)])
+def test_what_is_wrong_or_unchecked_is_not_judged(root, status, verdict, reason, ratio):
+    file = file_of(root, "pairs", synthetic.full(wrong=False))
+    source = published.read(file).source
+    of = source["cells"]["cell_id"][0]
+    assert of in source["compare"]["cell_b"]
+    with h5py.File(file, "a") as tables:
+        cells = tables["cells"][:]
+        cells["status"][cells["cell_id"] == of] = status
+        tables["cells"][:] = cells
+
+    def found():
+        return [line for line in recomputed.differences(published.read(file).source) if line.startswith("/compare")]
+
+    rows = (source["compare"]["cell_a"] == of) | (source["compare"]["cell_b"] == of)
+    assert sum(f"cell {of} against" in line or f"against {of}," in line for line in found()) == rows.sum()
+    with h5py.File(file, "a") as tables:
+        changed = tables["compare"][:]
+        changed["verdict"][rows], changed["reason"][rows] = verdict, reason
+        changed["ratio"][rows] += ratio
+        tables["compare"][:] = changed
+    named = [line for line in found() if f"cell {of} against" in line or f"against {of}," in line]
+    assert not [line for line in named if "it is called" in line or "not the ratio" in line]
+
+
 def test_a_verdict_is_that_of_its_samples():
     def of(logs, level=0.05, floor=0.0, inputs=()):
         return verdicts.ruling(logs, inputs or [0] * len(logs), level, floor, 0.05)[:2]
@@ -143,7 +168,7 @@ def test_a_verdict_is_that_of_its_samples():
 
 def test_the_level_of_a_family_is_that_of_its_claims():
     assert verdicts.sign_test([1.0] * 10) == 2 / 2**10 and verdicts.sign_test([1.0] * 9 + [-1.0]) == 22 / 2**10
-    assert verdicts.sign_test([0.0, 1.0, -1.0]) == 1
+    assert verdicts.sign_test([0.0] + [1.0] * 9) == 2 / 2**9
     assert verdicts.level_of([0.001, 0.5, 0.9, 1], 0.05) == 0.05 / 4 and verdicts.level_of([0.001, 0.02, 0.9, 1], 0.05) == 0.05 / 2
     assert verdicts.level_of([0.5, 0.9], 0.05) == 0.05 / 2
 

@@ -81,8 +81,8 @@ AllowedByUser::AllowedByUser(std::span<const std::string> allow, std::span<const
         const auto links = robot.robot.links();
         if (std::ranges::find(links, obstacle.name, &LinkDescription::name) != links.end())
             throw BadInput(fmt::format("--obstacle {}: a link is called {}; give the obstacle "
-                                       "another name, NAME={}",
-                                       text, obstacle.name, obstacle.body));
+                                       "another name, by NAME=...",
+                                       text, obstacle.name));
         obstacles.push_back(std::move(obstacle));
     }
     for (const std::string& text : allow)
