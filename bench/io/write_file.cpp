@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <iostream>
 #include <system_error>
@@ -39,10 +40,17 @@ class Descriptor {
     int fd_;
 };
 
-bool is_file_of(int fd, const struct stat& file) {
-    struct stat own {};
-    return ::fstat(fd, &own) == 0 && own.st_dev == file.st_dev && own.st_ino == file.st_ino;
-}
+/// An output of the program; before another file is opened, which gets the number of a closed one.
+struct Output {
+    int fd;
+    struct stat status {};
+    bool is_open;
+
+    explicit Output(int number) : fd(number), is_open(::fstat(fd, &status) == 0) {}
+    bool is(const struct stat& file) const {
+        return is_open && status.st_dev == file.st_dev && status.st_ino == file.st_ino;
+    }
+};
 
 void write_all(int fd, std::string_view content) {
     while (!content.empty()) {
@@ -54,18 +62,16 @@ void write_all(int fd, std::string_view content) {
     }
 }
 
-/// The room for it comes first.
+/// The room for it comes first, where the file system can say that there is some.
 void replace_content(int fd, const struct stat& before, std::string_view content) {
     const auto size = static_cast<off_t>(content.size());
-    if (size > before.st_size) {
-        int why = 0;
-        do
-            why = ::posix_fallocate(fd, 0, size);
-        while (why == EINTR);
-        if (why != 0 && why != EOPNOTSUPP) {
-            check(::ftruncate(fd, before.st_size) == 0);
-            check(false, why);
-        }
+    int why = 0;
+    do
+        why = size == 0 || ::fallocate(fd, 0, 0, size) == 0 ? 0 : errno;
+    while (why == EINTR);
+    if (why != 0 && why != EOPNOTSUPP && why != ENOSYS) {
+        check(::ftruncate(fd, before.st_size) == 0);
+        check(false, why);
     }
     write_all(fd, content);
     check(::ftruncate(fd, size) == 0);
@@ -74,15 +80,16 @@ void replace_content(int fd, const struct stat& before, std::string_view content
 } // namespace
 
 void write_file(const fs::path& name, std::string_view content, std::string_view what) try {
-    const bool is_new = !fs::is_symlink(name) && !fs::exists(name);
+    const std::array outputs{Output(STDOUT_FILENO), Output(STDERR_FILENO)};
+    const bool is_new = !fs::exists(name);
     try {
         Descriptor file(::open(name.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
         struct stat found {};
         check(::fstat(file, &found) == 0);
-        for (const int output : {STDOUT_FILENO, STDERR_FILENO})
-            if (is_file_of(output, found)) {
+        for (const Output& output : outputs)
+            if (output.is(found)) {
                 std::cout.flush();
-                return write_all(output, content);
+                return write_all(output.fd, content);
             }
         if (S_ISREG(found.st_mode))
             replace_content(file, found, content);
@@ -91,8 +98,8 @@ void write_file(const fs::path& name, std::string_view content, std::string_view
         file.close();
     } catch (const std::system_error&) {
         std::error_code ignored;
-        if (is_new)
-            fs::remove(name, ignored);
+        if (is_new) // and where a link leads
+            fs::remove(fs::canonical(name, ignored), ignored);
         throw;
     }
 } catch (const std::system_error& error) {

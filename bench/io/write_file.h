@@ -6,8 +6,8 @@
 namespace boxwood::bench {
 
 /// Writes a file, a pipe or a device, and where a link leads; what is the program's own output,
-/// too, follows what was printed there. A plain file for which the disk has no room keeps what it
-/// has. Throws BadInput: "`what`: cannot be written: why".
+/// too, follows what was printed there. A plain file keeps what it has where the disk has no room,
+/// if the file system can tell beforehand. Throws BadInput: "`what`: cannot be written: why".
 void write_file(const std::filesystem::path& name, std::string_view content, std::string_view what);
 
 } // namespace boxwood::bench

@@ -102,18 +102,37 @@ TEST_F(WriteFile, SaysWhyItCannotAndLosesNothing) {
 TEST_F(WriteFile, AFullDiskLeavesWhatWasThere) {
     const std::string file = in_folder("kept");
     write_file(file, "old", "it");
+    fs::create_symlink("none", in_folder("link"));
     rlimit before{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
     const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
     const rlimit few{4, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &few), 0);
-    const std::string of_old = complaint(file), of_none = complaint(in_folder("none"));
+    const std::string of_old = complaint(file), of_none = complaint(in_folder("link"));
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, ignored);
     EXPECT_THAT(of_old, HasSubstr("cannot be written: File too large"));
     EXPECT_THAT(of_none, HasSubstr("cannot be written: File too large"));
     EXPECT_EQ(read(file), "old");
-    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(files(), 2u); // and the link
+}
+
+/// A file that is opened then has the number of the output.
+TEST_F(WriteFile, TakesNoFileForAnOutputThatIsClosed) {
+    const std::string file = in_folder("file");
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO}) {
+        write_file(file, "longer than it will be", "it");
+        std::cout << std::flush;
+        const int kept = ::dup(output);
+        ::close(output);
+        std::cout << "printed";
+        write_file(file, "content", "it");
+        EXPECT_EQ(::fcntl(output, F_GETFD), -1);
+        ::dup2(kept, output);
+        ::close(kept);
+        EXPECT_EQ(read(file), "content");
+    }
+    std::cout << std::endl;
 }
 
 TEST_F(WriteFile, FollowsWhatWasPrintedWhereItIsTheOutput) {

@@ -31,8 +31,15 @@ def differences(source):
     """What the tables that are published do not have from /samples and from what was counted, as texts; none if all follows."""
     times = rounds_by_cell(source)
     twins = rounds_by_cell(source, of_twins=True)
-    return [*medians(source, times), *verdicts.differences(source, times, twins), *kernels(source, times), *kernel_costs(source),
+    return [*medians(source, times), *statuses(source), *verdicts.differences(source, times, twins), *kernels(source, times), *kernel_costs(source),
             *effect_costs(source, times), *device_gains(source, times)]
+
+
+def statuses(source):
+    for row in source["checks"]:
+        wrong = row["missing"] or row["extra"] or row["bound_violations"]
+        if (row["status"] == "wrong" and not (wrong or row["witness"])) or (row["status"] == "exact" and wrong):
+            yield f"/checks, cell {row['cell_id']}: called {row['status']}, and what was counted says otherwise"
 
 
 def kernels(source, times):

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .checkout import PROGRAM
-from boxwood.results.reader import DERIVED, DERIVED_COLUMNS, load
+from boxwood.results.reader import DERIVED, DERIVED_COLUMNS, BadFile, load
 
 ROOT = Path(__file__).resolve().parents[2]
 NEAR = 1e-9  # of numbers: libraries of other machines round exp and log otherwise
@@ -26,7 +26,7 @@ def derived_again(file):
         again = Path(folder) / file.name
         done = subprocess.run([program(), "merge", file, "--out", again], capture_output=True, text=True, check=False)
         if done.returncode:
-            raise RuntimeError(f"boxwood merge {file}: {done.stderr.strip()}")
+            raise BadFile(file, f"boxwood merge: {done.stderr.strip()}")
         return load(again)
 
 
@@ -42,8 +42,11 @@ def differences(file, source):
     """Columns of a file's derived tables that it does not have from its measured ones, as texts. Without a program nothing is known."""
     if not program():
         return []
-    again = derived_again(file)
+    try:
+        again = derived_again(file)
+    except (BadFile, OSError) as error:
+        return [f"{program()} does not derive it again: {error}"]
     columns = [(table, column) for table in DERIVED for column in again[table].dtype.names if column in (source[table].dtype.names or ())]
     columns += [tuple(name.split(".")) for name in DERIVED_COLUMNS if name.split(".")[1] in source[name.split(".")[0]].dtype.names]
-    return [f"/{table}, {column}: not what `boxwood merge` derives" for table, column in sorted(columns)
+    return [f"/{table}, {column}: not what `{program()} merge` derives" for table, column in sorted(columns)
             if not is_alike(source[table][column], again[table][column])]

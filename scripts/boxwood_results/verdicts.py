@@ -1,6 +1,6 @@
 """Ratios, intervals, noise floors and verdicts of /compare, from the samples once more: a second way to the numbers of bench/analysis,
 in another language. Taken as the file has them: statuses, classes, which rows there are, and whether a row depends on the layout of memory
-(`memory_layout`). `rederived.py` holds those to what the program derives."""
+(`memory_layout`). `rederived.py` holds those to what the program derives of the cells and checks that are there."""
 
 import math
 from collections import defaultdict

@@ -27,6 +27,7 @@ def edited(file, table, column, change):
     ("compare", "ci_hi", lambda hi: 0.999 * hi, "its samples are"),
     ("compare", "floor", lambda floor: 1000 + 0 * floor, "not the noise floor of the samples"),
     ("compare", "n_pairs", lambda n: n - 1, "not as many rounds as its samples"),
+    ("checks", "missing", lambda missing: missing + 1, "what was counted says otherwise"),
     ("kernels", "ns", lambda ns: 1.01 * ns, "not the time of its samples"),
     ("kernels", "wrong", lambda wrong: wrong + 1, "not as many wrong as were counted"),
     ("kernel_costs", "ns", lambda ns: 1.01 * ns, "not the mean of its families"),
