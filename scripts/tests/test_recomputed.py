@@ -122,6 +122,11 @@ def test_what_is_left_out_or_called_otherwise_is_said(root, table, change):
     assert any(line.startswith(f"/{table}, ") for line in rederived.differences(file, published.read(file).source))
 
 
+@pytest.mark.skipif(not synthetic.PROGRAM.exists(), reason=f"{synthetic.PROGRAM} is not built")
+def test_files_are_derived_again_by_the_program_under_test():
+    assert rederived.program() == synthetic.PROGRAM
+
+
 def test_without_a_program_no_file_is_derived_again(root, monkeypatch):
     monkeypatch.setenv("BOXWOOD_BUILD", str(root))
     assert rederived.program() is None and rederived.differences(root / "none.h5", None) == []
